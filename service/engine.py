@@ -36,10 +36,11 @@ from placecell.descriptors.manifest import Manifest, ModelError
 from placecell.descriptors.site_calibration import CalibrationState, SiteCalibration
 from placecell.localization import LocalizationParameters
 from placecell.map_alignment import AlignmentParameters
+from placecell.pose_graph import PoseGraphParameters
 from service.annotations.annotations import Annotations
 from service.annotations.writer import AnnotationWriter
 from service.core.auth import ANYONE, Principal
-from service.core.cost import check_cost, cost_of_aligning
+from service.core.cost import check_cost, cost_of_aligning, cost_of_search
 from service.core.metrics import Metrics
 from service.core.preconditions import Preconditions
 from service.core.settings import Settings
@@ -63,6 +64,7 @@ from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from service.maps.writes.partial_uploads import PartialUploads
 from service.maps.writes.writer import EditOptions, MapWriter, WriteResult
 from service.merging.alignment import AlignedMaps, K, MapSide, align_maps, check_same_model
+from service.merging.bending import OptimizedMap, Optimizer, check_solver, queries_of
 from service.merging.carrying import carry_anchors
 from service.merging.merge import Merger, MergeResult
 from service.search.hints import ResolvedHints, resolve, sensor_of_codes
@@ -77,6 +79,8 @@ NO_CONDITIONS = Preconditions()
 ALIGN_SMALLER = "Align smaller maps, such as parts of these."
 
 MERGE_FEWER = "Merge fewer or smaller maps at once."
+
+OPTIMIZE_SMALLER = "Optimize parts of the map, or raise the limit alignment_seconds."
 
 
 class StartError(Exception):
@@ -574,6 +578,28 @@ class Engine:
         merged = merger.merge(name, maps)
         carried = carry_anchors(merged, name, self.maps, self.annotations, principal.name)
         return replace(merged, anchors=carried)
+
+    def optimize_map(
+        self,
+        name: str,
+        dry_run: bool = False,
+        parameters: PoseGraphParameters | None = None,
+        principal: Principal = ANYONE,
+        conditions: Preconditions = NO_CONDITIONS,
+    ) -> OptimizedMap:
+        """Remove the drift of a map by loops within it; see `Optimizer.optimize`.
+
+        Raises:
+            Problem: as `Optimizer.optimize`; 403 if the map is outside the scope of the principal;
+                413 if it is too much work.
+        """
+        writer = self._writer_to(name, principal, conditions)
+        options = parameters or PoseGraphParameters()
+        check_solver()
+        content = self.maps.get(name).layers.content()
+        cost = cost_of_search(queries_of(content, options), len(content), options.candidates, 1)
+        check_cost(cost, self.settings.limits.alignment_seconds, OPTIMIZE_SMALLER)
+        return Optimizer(writer, options, dry_run, current().check).optimize(name)
 
     def check_alignments(
         self, names: Sequence[str], remedy: str, parameters: AlignmentParameters | None = None

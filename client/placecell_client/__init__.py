@@ -46,6 +46,12 @@ from placecell_client.results.localization import (
     Rival,
 )
 from placecell_client.results.merge import MapLoop, Merge, MergedAnchor, MergedPart, MergePair
+from placecell_client.results.optimization import (
+    GraphLoop,
+    GraphPart,
+    MovedCapture,
+    Optimization,
+)
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
@@ -61,6 +67,8 @@ __all__ = [
     "Delta",
     "Description",
     "GeoHint",
+    "GraphLoop",
+    "GraphPart",
     "Hints",
     "Hypothesis",
     "Info",
@@ -86,7 +94,9 @@ __all__ = [
     "MergePair",
     "MergedAnchor",
     "MergedPart",
+    "MovedCapture",
     "NearHint",
+    "Optimization",
     "OutsidePlace",
     "Overlap",
     "PartialUpload",

@@ -45,6 +45,7 @@ from placecell_client.results.core import (
 )
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
+from placecell_client.results.optimization import Optimization
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
@@ -317,6 +318,19 @@ class AsyncClient(BaseClient):
         call = self._calls.merge_maps(
             merged_map, maps, dry_run, deduplicate, motion, if_match, timeout
         )
+        return await self._send(call)
+
+    async def optimize_map(
+        self,
+        name: str,
+        *,
+        dry_run: bool = False,
+        frames: bool = False,
+        if_match: str | None = None,
+        timeout: float = ALIGNMENT_SECONDS,
+    ) -> Optimization:
+        """See `Client.optimize_map`."""
+        call = self._calls.optimize_map(name, dry_run, frames, if_match, timeout)
         return await self._send(call)
 
     async def compact_map(self, name: str, keep: int = 1) -> int:

@@ -43,6 +43,7 @@ from placecell_client.results.core import (
 )
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
+from placecell_client.results.optimization import Optimization
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
@@ -71,8 +72,8 @@ class Client(BaseClient):
     errors), but only if a repetition is safe. A write may have been carried out although its answer
     was lost; a repetition could then undo later writes of other clients. An ETag as `if_match`
     makes every write safe to repeat. Without an ETag, `add_scan`, `restore_map`, `prune_map`,
-    `merge_maps`, `compact_map`, `delete_map`, and every write with `if_match="*"`, are not repeated
-    in this case.
+    `merge_maps`, `optimize_map`, `compact_map`, `delete_map`, and every write with `if_match="*"`,
+    are not repeated in this case.
 
     Args:
         base_url: Address of the service, such as `http://127.0.0.1:8000`.
@@ -600,6 +601,34 @@ class Client(BaseClient):
         call = self._calls.merge_maps(
             merged_map, maps, dry_run, deduplicate, motion, if_match, timeout
         )
+        return self._send(call)
+
+    def optimize_map(
+        self,
+        name: str,
+        *,
+        dry_run: bool = False,
+        frames: bool = False,
+        if_match: str | None = None,
+        timeout: float = ALIGNMENT_SECONDS,
+    ) -> Optimization:
+        """Remove the drift of a map by loops within it, and write the moved map as one version.
+
+        The service localizes the captures of the map in its other parts. Loops that drift does not
+        explain are rejected and told. Restoring `previous` undoes the optimization. The service may
+        need minutes. A service without the solver gives a `ServiceError` with status 501.
+
+        Args:
+            name: Name of the map.
+            dry_run: Only compute the result; write nothing.
+            frames: Also return each capture before and after.
+            if_match: ETag that the map's newest version must have.
+            timeout: Time limit of the call in seconds; it replaces the client's.
+
+        Returns:
+            The loops, how far captures move, and the new version.
+        """
+        call = self._calls.optimize_map(name, dry_run, frames, if_match, timeout)
         return self._send(call)
 
     def compact_map(self, name: str, keep: int = 1) -> int:

@@ -103,7 +103,9 @@ def bend(
         PoseGraphUnavailableError: The extra `pose-graph` is not installed.
     """
     solver()  # before a search that may take minutes
-    loops = find_loops(graph, search, parameters, confidence, progress=progress)
+    # Each track as its odometry gave it: a map that was optimized before has the same loops again.
+    raw = graph.as_driven()
+    loops = find_loops(raw, search, parameters, confidence, progress=progress)
     return judged(graph.frames, loops, parameters)
 
 

@@ -22,7 +22,7 @@ from placecell.localization.covariance import at_point
 from placecell.localization.guided_matching import match_guided
 from placecell.localization.localize import find_places, judge
 from placecell.map_alignment import MatchProbabilities
-from placecell.pose_graph.frames import GraphFrames, Links, relative, rotated
+from placecell.pose_graph.frames import NO_TRACK, GraphFrames, Links, relative, rotated
 from placecell.pose_graph.parameters import PoseGraphParameters
 
 
@@ -55,6 +55,15 @@ class GraphMap:
     frames: GraphFrames
     centroids: Float64
     captures: Int64
+
+    def as_driven(self) -> "GraphMap":
+        """Return the map with the captures of each track at the poses of their odometry."""
+        odometry = self.frames.odometry
+        has_track = odometry.tracks != NO_TRACK
+        return self.moved(
+            np.where(has_track[:, None], odometry.positions, self.frames.positions),
+            np.where(has_track, odometry.yaws, self.frames.yaws),
+        )
 
     def moved(self, positions: Float64, yaws: Float64) -> "GraphMap":
         """Return the map with its captures at other poses; each segment moves with its capture."""

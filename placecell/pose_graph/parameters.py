@@ -70,6 +70,6 @@ class PoseGraphParameters:
     right: float = 1.0
     right_yaw: float = 3.0
     """Largest residual of an accepted loop after the optimization."""
-    settled: float = 0.02
+    settled: float = 0.1
     """Movement of a capture up to which it stays where it is: an optimization that moves no capture
     farther changes nothing."""

@@ -115,9 +115,16 @@ class MapLayers:
         """Names of the optional columns."""
         return {*self.base.optional, *self.recent.optional}
 
+    @property
+    def has_odometry(self) -> bool:
+        """Whether the map has the columns of the odometry."""
+        return self.base.has_odometry or self.recent.has_odometry
+
     def content(self) -> CompactMap:
         """Return the map in one piece, in canonical form."""
-        if not self.gone_count and not len(self.recent) and self.optional == {*self.base.optional}:
+        is_base = not self.gone_count and not len(self.recent)
+        has_columns = self.optional == {*self.base.optional}
+        if is_base and has_columns and self.has_odometry == self.base.has_odometry:
             return self.base
         return apply(self.base, self._above())
 
@@ -217,6 +224,7 @@ class MapLayers:
         """Return a change, given this map's content at least where the delta changes it."""
         touched = np.isin(content.ids, np.concatenate([delta.changed.ids, delta.removed]))
         is_empty = not len(delta) and not {*delta.changed.optional} - self.optional
+        is_empty = is_empty and (self.has_odometry or not delta.changed.has_odometry)
         return MapChange(take(content, touched), delta, is_empty)
 
     def rebased(self, base: CompactMap, before: "MapLayers") -> "MapLayers":

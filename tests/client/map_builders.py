@@ -68,6 +68,13 @@ COLUMN_SETS = column_sets(*GROUPS)
 ORIENTATIONS = np.array([[0, 0, 0, 1], [0, 0, 0, -1], [1, 0, 0, 0], [-0.0, 0, 0, 1]], np.float32)
 
 
+def with_tracks(given: CompactMap, track: int = 7) -> CompactMap:
+    """Return a map whose captures have an odometry."""
+    f = len(given.frame_times)
+    odometry = np.column_stack([given.frame_positions, np.linspace(0, 1, f), np.zeros((f, 3))])
+    return replace(given, frame_tracks=np.full(f, track, np.uint32), frame_odometry=odometry)
+
+
 @st.composite
 def maps(draw: st.DrawFn, optional: st.SearchStrategy[set[str]] = COLUMN_SETS) -> CompactMap:
     """Draw small maps from few values, so that two maps share ids, segments and captures."""
@@ -106,6 +113,9 @@ def maps(draw: st.DrawFn, optional: st.SearchStrategy[set[str]] = COLUMN_SETS) -
         columns["source"] = column(st.integers(0, 2), np.uint16)
         columns["source_ids"] = np.where(columns["source"], columns["source_ids"], given.ids)
         columns["sources"] = tuple(draw(st.permutations(["dock", "east", "west"])))
+    if draw(st.booleans()):
+        columns["frame_tracks"] = column(st.integers(0, 2), np.uint32, frames)
+        columns["frame_odometry"] = column(st.sampled_from([0.0, -0.0, 1.5]), np.float64, frames, 7)
     return replace(given, **columns)
 
 

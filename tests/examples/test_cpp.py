@@ -409,6 +409,7 @@ def expected_lines(compact_map: CompactMap) -> list[Any]:
 MAPS = {
     "bare": random_map(segments=50),
     "all-columns": random_map(segments=50, optional=OPTIONAL, extent=1e7),
+    "odometry": with_tracks(random_map(segments=50, frames=5)),
     "empty": random_map(segments=0, frames=0),
     "many-robots": random_map(segments=400, robots=tuple(f"é-{n} \U0001f600" for n in range(300))),
 }

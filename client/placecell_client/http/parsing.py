@@ -34,6 +34,7 @@ from placecell_client.results.core import (
 )
 from placecell_client.results.localization import Localizations, localization_of
 from placecell_client.results.merge import Merge, merge_of
+from placecell_client.results.optimization import Optimization, optimization_of
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
@@ -239,6 +240,11 @@ def versions(answer: HttpResponse) -> tuple[MapVersion, ...]:
 def alignment(answer: HttpResponse) -> MapAlignment:
     """Read the response of `POST /maps/{map}/align/{other}`."""
     return alignment_of(_content(answer))
+
+
+def optimization(answer: HttpResponse) -> Optimization:
+    """Read the response of `POST /maps/{map}/optimize`."""
+    return optimization_of(_content(answer))
 
 
 def merge(answer: HttpResponse) -> Merge:

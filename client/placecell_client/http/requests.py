@@ -42,6 +42,7 @@ from placecell_client.results.core import (
 )
 from placecell_client.results.localization import Localizations, Motion
 from placecell_client.results.merge import Merge
+from placecell_client.results.optimization import Optimization
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
 
@@ -407,6 +408,16 @@ class Calls:
             repeatable=call.repeatable or dry_run,
             timeout=timeout,
         )
+
+    def optimize_map(
+        self, name: str, dry_run: bool, frames: bool, if_match: str | None, timeout: float
+    ) -> Call[Optimization]:
+        """Build `POST /maps/{map}/optimize`."""
+        asked = {"dry_run": dry_run or None, "frames": frames or None}
+        options = {key: "true" for key, value in asked.items() if value}
+        path = _path(name, "/optimize", **options)
+        call = self._tied("POST", path, parsing.optimization, if_match)
+        return replace(call, repeatable=call.repeatable or dry_run, timeout=timeout)
 
     def compact_map(self, name: str, keep: int) -> Call[int]:
         """Build `POST /maps/{map}/compact`."""

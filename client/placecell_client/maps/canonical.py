@@ -34,7 +34,8 @@ def canonical(compact_map: CompactMap) -> CompactMap:
         frame_index=frame_ranks[ordered.frame_index],
         frame_times=table[:, 0].copy(),
         frame_positions=table[:, 1:4].copy(),
-        frame_orientations=table[:, 4:].astype(np.float32),
+        frame_orientations=table[:, 4:8].astype(np.float32),
+        **_odometry_columns(ordered, table[:, 8:]),
         **_sorted_sources(ordered),
     )
 
@@ -69,17 +70,18 @@ def centimeters(meters: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def frame_rows(compact_map: CompactMap) -> NDArray[np.float64]:
-    """Return the frame table, float64 (f, 8): time, position, orientation.
+    """Return the frame table, float64 (f, 8 or 16): time, position, orientation, odometry.
 
     Equal frames are equal rows.
     """
-    table = np.column_stack(
-        [
-            compact_map.frame_times,
-            compact_map.frame_positions,
-            _one_sign(compact_map.frame_orientations),
-        ]
-    )
+    parts: list[NDArray[Any]] = [
+        compact_map.frame_times,
+        compact_map.frame_positions,
+        _one_sign(compact_map.frame_orientations),
+    ]
+    if compact_map.frame_tracks is not None and compact_map.frame_odometry is not None:
+        parts += [compact_map.frame_tracks, compact_map.frame_odometry]
+    table = np.column_stack(parts)
     table += 0.0  # makes -0.0 and 0.0 the same
     return table
 
@@ -104,6 +106,13 @@ def _sorted_frames(compact_map: CompactMap) -> tuple[NDArray[np.float64], NDArra
     ranks = np.zeros(len(used), dtype=np.uint32)
     ranks[used] = places
     return table, ranks
+
+
+def _odometry_columns(compact_map: CompactMap, rows: NDArray[np.float64]) -> dict[str, Any]:
+    """Return the columns of the odometry of a sorted table, if the map has them."""
+    if not compact_map.has_odometry:
+        return {}
+    return {"frame_tracks": rows[:, 0].astype(np.uint32), "frame_odometry": rows[:, 1:].copy()}
 
 
 def _sorted_sources(compact_map: CompactMap) -> dict[str, Any]:

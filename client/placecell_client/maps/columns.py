@@ -6,7 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from placecell_client.maps.canonical import centimeters
-from placecell_client.maps.compact_map import OPTIONAL, CompactMap, MapFileError
+from placecell_client.maps.compact_map import (
+    ODOMETRY_COLUMNS,
+    OPTIONAL,
+    CompactMap,
+    MapFileError,
+)
 from placecell_client.maps.container import Columns
 
 REQUIRED = frozenset(
@@ -42,6 +47,9 @@ def columns_of(ordered: CompactMap) -> Columns:
     for name in ordered.optional:
         column: NDArray[Any] = getattr(ordered, name)
         columns[name] = column.astype(column.dtype.newbyteorder("<"), copy=False)
+    if ordered.frame_tracks is not None and ordered.frame_odometry is not None:
+        columns["frame_tracks"] = ordered.frame_tracks.astype("<u4", copy=False)
+        columns["frame_odometry"] = ordered.frame_odometry.astype("<f8", copy=False)
     return columns
 
 
@@ -90,6 +98,11 @@ def map_of(header: dict[str, Any], columns: Columns) -> CompactMap:
             **{
                 name: columns[name].astype(dtype, copy=False)
                 for name, (dtype, _) in OPTIONAL.items()
+                if name in columns
+            },
+            **{
+                name: columns[name].astype(dtype, copy=False)
+                for name, dtype in zip(ODOMETRY_COLUMNS, (np.uint32, np.float64), strict=True)
                 if name in columns
             },
         )

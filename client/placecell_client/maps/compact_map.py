@@ -21,6 +21,10 @@ SEGMENT_COLUMNS = ("codes", "centroids", "ids", "robot", "frame_index")
 """Columns of every map with one row per segment."""
 FRAME_COLUMNS = ("frame_times", "frame_positions", "frame_orientations")
 """Columns of the frame table."""
+ODOMETRY_COLUMNS = ("frame_tracks", "frame_odometry")
+"""Optional columns of the frame table; they come together."""
+ODOMETRY_WIDTH = 7
+"""Numbers of a capture in `frame_odometry`: x, y, z, yaw, and three variances."""
 OPTIONAL: dict[str, tuple[type[np.unsignedinteger[Any]], tuple[int, ...]]] = {
     "extents": (np.uint8, (3,)),
     "points": (np.uint16, ()),
@@ -73,6 +77,13 @@ class CompactMap:
             uint16 (n,).
         source_ids: Id of the segment in its source map, uint32 (n,); its own id if `source` is 0.
         sources: Names of the maps that segments were merged from, without duplicates.
+        frame_tracks: Odometry track of each capture, uint32 (f,). Captures of one track are
+            connected by odometry; 0: no odometry. The number is unique among all robots.
+        frame_odometry: Pose of the sensor by the odometry of its track, and the variances since
+            the track began, float64 (f, 7): x, y, z, meters; yaw of the sensor's x axis, radians;
+            variance of the horizontal position along each axis, m^2, of the height, m^2, and of
+            the yaw, rad^2. Three zeros: unknown variances. The pose stays as the odometry gave it
+            when the captures are moved.
     """
 
     model_id: str
@@ -94,6 +105,8 @@ class CompactMap:
     source: NDArray[np.uint16] | None = None
     source_ids: NDArray[np.uint32] | None = None
     sources: tuple[str, ...] = ()
+    frame_tracks: NDArray[np.uint32] | None = None
+    frame_odometry: NDArray[np.float64] | None = None
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -115,6 +128,11 @@ class CompactMap:
         return tuple(name for name in OPTIONAL if getattr(self, name) is not None)
 
     @property
+    def has_odometry(self) -> bool:
+        """Whether the map has the columns of the odometry."""
+        return self.frame_tracks is not None
+
+    @property
     def time_span(self) -> tuple[float, float] | None:
         """Earliest and latest capture time, seconds; None without captures."""
         if not len(self.frame_times):
@@ -131,6 +149,7 @@ class CompactMap:
         _check_columns(self)
         _check_values(self)
         _check_provenance(self)
+        _check_odometry(self)
 
 
 def is_ascending(ids: NDArray[np.uint32]) -> bool:
@@ -221,3 +240,24 @@ def _check_provenance(compact_map: CompactMap) -> None:
         raise MapFileError(f"source: {int(source.max())}, but there are {len(names)} names")
     if ((ids != compact_map.ids) & (source == 0)).any():
         raise MapFileError("source_ids: expected the segment's own id where the source is 0")
+
+
+def _check_odometry(compact_map: CompactMap) -> None:
+    tracks, odometry = compact_map.frame_tracks, compact_map.frame_odometry
+    if tracks is None or odometry is None:
+        if tracks is not None or odometry is not None:
+            raise MapFileError("frame_tracks, frame_odometry: expected both columns or neither")
+        return
+    f = len(compact_map.frame_times)
+    for name, column, dtype, shape in (
+        ("frame_tracks", tracks, np.uint32, (f,)),
+        ("frame_odometry", odometry, np.float64, (f, ODOMETRY_WIDTH)),
+    ):
+        if column.dtype != dtype or column.shape != shape:
+            raise MapFileError(
+                f"{name}: {column.dtype} {column.shape}, expected {np.dtype(dtype)} {shape}"
+            )
+    if odometry.size and not (np.abs(odometry) <= COORDINATE_LIMIT).all():
+        raise MapFileError(f"frame_odometry: a value is not finite or beyond {COORDINATE_LIMIT:g}")
+    if odometry.size and odometry[:, 4:].min() < 0:
+        raise MapFileError("frame_odometry: a variance is negative")

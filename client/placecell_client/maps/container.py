@@ -22,8 +22,10 @@ DTYPES = {
     # Order of the tensors in a file: wide elements first, so that all are aligned.
     "frame_positions": ("F64",),
     "frame_times": ("F64",),
+    "frame_odometry": ("F64",),
     "frame_orientations": ("F32",),
     "ids": ("U32",),
+    "frame_tracks": ("U32",),
     "views": ("U32",),
     "seen": ("U32",),
     "source_ids": ("U32",),

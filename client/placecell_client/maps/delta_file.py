@@ -11,7 +11,13 @@ from numpy.typing import NDArray
 from placecell_client.maps import container
 from placecell_client.maps.canonical import canonical
 from placecell_client.maps.columns import REQUIRED, columns_of, header_of, map_of
-from placecell_client.maps.compact_map import OPTIONAL, CompactMap, MapFileError, is_ascending
+from placecell_client.maps.compact_map import (
+    ODOMETRY_COLUMNS,
+    OPTIONAL,
+    CompactMap,
+    MapFileError,
+    is_ascending,
+)
 from placecell_client.maps.container import Content, FileFormat
 
 FORMAT = "placecell-delta"
@@ -20,7 +26,9 @@ MEDIA_TYPE = "application/vnd.placecell.delta"
 SEQUENCE_LIMIT = 1 << 53
 """Upper bound of sequence numbers: JSON readers in other languages round larger integers."""
 
-_DELTA_FILE = FileFormat(FORMAT, "delta file", VERSION, REQUIRED | {"removed"}, frozenset(OPTIONAL))
+_DELTA_FILE = FileFormat(
+    FORMAT, "delta file", VERSION, REQUIRED | {"removed"}, frozenset({*OPTIONAL, *ODOMETRY_COLUMNS})
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,6 +15,7 @@ from placecell_client.maps.union import (
     is_same_kind,
     places_of,
     union,
+    with_odometry,
     with_optional,
 )
 
@@ -66,6 +67,8 @@ def difference(old: CompactMap, new: CompactMap) -> tuple[CompactMap, NDArray[np
             column of `old`. `delta_between` handles these cases.
     """
     lost = set(old.optional) - set(new.optional)
+    if old.has_odometry and not new.has_odometry:
+        lost.add("frame_odometry")
     if lost:
         raise MapFileError(f"{min(lost)}: a difference cannot remove a column")
     return canonical_difference(canonical(with_optional(old, new.optional)), canonical(new))
@@ -101,6 +104,7 @@ def delta_between(old: CompactMap, new: CompactMap, since: int, until: int) -> D
         MapFileError: A difference is impossible, and `until` is 0.
     """
     is_told = is_same_kind(old, new) and set(old.optional) <= set(new.optional)
+    is_told = is_told and not (old.has_odometry and not new.has_odometry)
     if until and not (since and is_told):
         return Delta(canonical(new), np.zeros(0, np.uint32), 0, until)
     return Delta(*difference(old, new), since, until)
@@ -204,6 +208,8 @@ def _differs(
     if before.source is not None and after.source is not None:
         sources = places_of(("", *before.sources), ("", *after.sources))  # 0: the map itself
         differs |= sources[before.source[places]] != after.source[rows]
+    if before.has_odometry or after.has_odometry:
+        before, after = with_odometry(before), with_odometry(after)
     _, ranks = distinct_rows(np.concatenate([frame_rows(before), frame_rows(after)]))
     old_ranks, new_ranks = np.split(ranks, [len(before.frame_times)])
     differs |= old_ranks[before.frame_index[places]] != new_ranks[after.frame_index[rows]]

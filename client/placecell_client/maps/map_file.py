@@ -7,7 +7,7 @@ files; `decode` refuses all bytes that `encode` does not make.
 from placecell_client.maps import container
 from placecell_client.maps.canonical import canonical
 from placecell_client.maps.columns import REQUIRED, columns_of, header_of, map_of
-from placecell_client.maps.compact_map import OPTIONAL, CompactMap, MapFileError
+from placecell_client.maps.compact_map import ODOMETRY_COLUMNS, OPTIONAL, CompactMap, MapFileError
 from placecell_client.maps.container import Content, FileFormat
 
 __all__ = ["FORMAT", "MEDIA_TYPE", "VERSION", "CompactMap", "MapFileError", "decode", "encode"]
@@ -16,7 +16,9 @@ FORMAT = "placecell-map"
 VERSION = 1
 MEDIA_TYPE = "application/vnd.placecell.map"
 
-_MAP_FILE = FileFormat(FORMAT, "map file", VERSION, REQUIRED, frozenset(OPTIONAL))
+_MAP_FILE = FileFormat(
+    FORMAT, "map file", VERSION, REQUIRED, frozenset({*OPTIONAL, *ODOMETRY_COLUMNS})
+)
 
 
 def encode(compact_map: CompactMap) -> bytes:

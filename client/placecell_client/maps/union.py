@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from placecell_client.maps.canonical import canonical
 from placecell_client.maps.compact_map import (
     FRAME_COLUMNS,
+    ODOMETRY_COLUMNS,
+    ODOMETRY_WIDTH,
     OPTIONAL,
     SEGMENT_COLUMNS,
     SOURCE_LIMIT,
@@ -53,8 +55,11 @@ def union(maps: Sequence[CompactMap], without: NDArray[np.intp] | None = None) -
         name: np.concatenate([getattr(each, name) for each in aligned])[rows]
         for name in (*SEGMENT_COLUMNS, *optional)
     }
-    for name in FRAME_COLUMNS:
-        joined[name] = np.concatenate([getattr(each, name) for each in maps])
+    if any(each.has_odometry for each in maps):
+        maps = [with_odometry(each) for each in maps]
+    for name in (*FRAME_COLUMNS, *ODOMETRY_COLUMNS):
+        columns = [getattr(each, name) for each in maps]
+        joined[name] = None if columns[0] is None else np.concatenate(columns)
     return canonical(replace(aligned[0], **joined))
 
 
@@ -67,6 +72,18 @@ def with_optional(compact_map: CompactMap, names: Iterable[str]) -> CompactMap:
     missing = [name for name in names if getattr(compact_map, name) is None]
     defaults: dict[str, Any] = {name: _default(compact_map, name) for name in missing}
     return replace(compact_map, **defaults)
+
+
+def with_odometry(compact_map: CompactMap) -> CompactMap:
+    """Add the columns of the odometry, if they are missing: no capture has an odometry."""
+    if compact_map.has_odometry:
+        return compact_map
+    f = len(compact_map.frame_times)
+    return replace(
+        compact_map,
+        frame_tracks=np.zeros(f, np.uint32),
+        frame_odometry=np.zeros((f, ODOMETRY_WIDTH)),
+    )
 
 
 def places_of(names: tuple[str, ...], table: tuple[str, ...]) -> NDArray[np.int64]:

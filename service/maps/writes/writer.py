@@ -350,7 +350,7 @@ class MapWriter:
         self, snapshot: MapSnapshot, change: MapChange, operation: str, refreshed: UInt32
     ) -> UInt32 | None:
         """Check times and new ids; return the ids that become this key's; None: owners stay."""
-        if operation in {"restore", "age"}:
+        if operation in {"restore", "age", "optimize"}:
             return None
         check_times(change.delta.changed)
         written = np.setdiff1d(change.delta.changed.ids, refreshed)

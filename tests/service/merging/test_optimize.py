@@ -1,0 +1,166 @@
+"""`/maps/{map}/optimize` over HTTP, with maps of robots that drift around a block."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from placecell_client import CompactMap, decode
+
+from placecell.descriptors.manifest import Manifest
+from service.core.problems import Problem
+from service.merging import bending
+from tests.service.merging.drifting_maps import drifting_map
+from tests.service.merging.merged_map_builders import models_that_judge, put
+from tests.service.service_builders import assert_problem
+
+pytestmark = pytest.mark.slow  # by their sum
+
+
+@pytest.fixture(scope="module")
+def models_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return models_that_judge(tmp_path_factory.mktemp("models"))
+
+
+@pytest.fixture(scope="module")
+def manifest(models_dir: Path) -> Manifest:
+    return Manifest.load(models_dir / "tiny")
+
+
+@pytest.fixture(scope="module")
+def drifting(manifest: Manifest) -> tuple[CompactMap, np.ndarray]:
+    return drifting_map(manifest.model_id, seed=1)
+
+
+def content(service: Any, name: str = "block") -> CompactMap:
+    response = service.get(f"/maps/{name}")
+    assert response.status_code == 200, response.text
+    return decode(response.content)
+
+
+def optimize(service: Any, name: str = "block", **asked: Any) -> dict[str, Any]:
+    response = service.post(f"/maps/{name}/optimize", params=asked)
+    assert response.status_code == 200, response.text
+    return dict(response.json())
+
+
+def apart(content: CompactMap) -> float:
+    """Return the mean distance between the captures of the first and the second lap, meters."""
+    order = np.argsort(content.frame_times)
+    first, second = np.split(content.frame_positions[order], 2)
+    return float(np.linalg.norm(first - second, axis=1).mean())
+
+
+def test_optimization_moves_laps_onto_each_other_and_can_be_undone(
+    service: Any, drifting: tuple[CompactMap, np.ndarray]
+) -> None:
+    given, _ = drifting
+    put(service, "block", given)
+    before = apart(content(service))
+    told = optimize(service, dry_run=True, frames=True)
+    assert told["dry_run"]
+    assert told["sequence"] is None
+    assert told["loops_accepted"] > 10
+    assert told["residual_after_m"] < 0.2 < told["residual_before_m"]
+    assert len(told["frames"]) == told["captures"] == len(given.frame_times)
+    assert [part["robots"] for part in told["parts"]] == [["ann"]]
+    assert apart(content(service)) == before
+
+    done = optimize(service)
+    assert done["sequence"] == done["previous"] + 1
+    after = content(service)
+    assert apart(after) < 0.25 * before
+    assert after.frame_tracks is not None
+    assert len(after) == len(given)
+    again = optimize(service)
+    assert again["sequence"] == done["sequence"]
+
+    undo = service.post(f"/maps/block/versions/{done['previous']}/restore")
+    assert undo.status_code == 200
+    np.testing.assert_array_equal(content(service).centroids, given.centroids)
+    assert content(service).frame_tracks is None
+
+
+def test_segments_keep_their_place_relative_to_the_sensor(
+    service: Any, drifting: tuple[CompactMap, np.ndarray]
+) -> None:
+    given, _ = drifting
+    put(service, "block", given)
+    optimize(service)
+    after = content(service)
+    for one in (given, after):
+        assert (one.ids == given.ids).all()
+    reach = [
+        np.linalg.norm(one.centroids - one.frame_positions[one.frame_index], axis=1)
+        for one in (given, after)
+    ]
+    np.testing.assert_allclose(*reach, atol=0.02)
+
+
+def test_service_without_solver_names_the_extra(
+    service: Any, drifting: tuple[CompactMap, np.ndarray], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(service, "block", drifting[0])
+
+    def missing() -> None:
+        raise bending.PoseGraphUnavailableError('pip install "placecell[pose-graph]"')
+
+    monkeypatch.setattr(bending, "solver", missing)
+    response = service.post("/maps/block/optimize")
+    assert_problem(response, 501, "pose-graph-missing")
+    assert "placecell[pose-graph]" in response.json()["detail"]
+
+
+def test_write_during_the_optimization_is_a_conflict(
+    service: Any,
+    drifting: tuple[CompactMap, np.ndarray],
+    manifest: Manifest,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    put(service, "block", drifting[0])
+    other, _ = drifting_map(manifest.model_id, seed=2, laps=1)
+    bend = bending.bend_content
+
+    def meanwhile(*args: Any) -> Any:
+        found = bend(*args)
+        put(service, "block", other, **{"If-Match": "*"})
+        return found
+
+    monkeypatch.setattr(bending, "bend_content", meanwhile)
+    response = service.post("/maps/block/optimize")
+    assert_problem(response, 409, "map-changed")
+    assert len(content(service)) == len(other)
+
+
+def test_missing_map_and_wrong_version_are_refused(
+    service: Any, drifting: tuple[CompactMap, np.ndarray]
+) -> None:
+    assert_problem(service.post("/maps/none/optimize"), 404, "unknown-map")
+    put(service, "block", drifting[0])
+    response = service.post("/maps/block/optimize", headers={"If-Match": '"0000000000000000-9"'})
+    assert response.status_code == 412
+
+
+def test_map_without_loops_stays_as_it_is(service: Any, manifest: Manifest) -> None:
+    single, _ = drifting_map(manifest.model_id, seed=3, laps=1, odometry=True)
+    put(service, "block", single)
+    told = optimize(service)
+    assert told["loops_accepted"] in range(20)
+    if not told["loops_accepted"]:
+        assert told["sequence"] == told["previous"]
+        assert told["moved_max_m"] < 1e-6
+
+
+def test_work_above_the_limit_is_refused(
+    service: Any, drifting: tuple[CompactMap, np.ndarray], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from service import engine
+
+    put(service, "block", drifting[0])
+    refused = Problem(413, "too-much-work", "too much")
+
+    def refuse(*_: Any) -> None:
+        raise refused
+
+    monkeypatch.setattr(engine, "check_cost", refuse)
+    assert_problem(service.post("/maps/block/optimize"), 413, "too-much-work")
