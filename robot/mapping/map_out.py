@@ -6,6 +6,7 @@ without faults.
 """
 
 from dataclasses import dataclass
+from zlib import crc32
 
 import numpy as np
 from placecell_client import CompactMap, Delta, encode_delta
@@ -64,6 +65,17 @@ class MapEdit:
     part: int
     content: bytes
     segments: int
+
+
+def track_of(frame: str) -> int:
+    """Return the number of an odometry track, from the name of its coordinate frame."""
+    return crc32(frame.encode()) or 1  # 0 means that there is no odometry
+
+
+def _odometry_of(pose: Float64) -> Float64:
+    """Return the row of `frame_odometry` of a pose, whose covariance is not known."""
+    yaw = np.arctan2(pose[1, 0], pose[0, 0])
+    return np.array([*pose[:3, 3], yaw, 0.0, 0.0, 0.0])
 
 
 class EditMaker:
@@ -132,6 +144,8 @@ class EditMaker:
             frame_times=np.array([capture.time]),
             frame_positions=pose[None, :3, 3].copy(),
             frame_orientations=turn[None].astype(np.float32),
+            frame_tracks=np.array([track_of(self.frame)], np.uint32),
+            frame_odometry=_odometry_of(pose)[None],
         )
         content = encode_delta(Delta(segments, np.zeros(0, dtype=np.uint32)))
         edit = MapEdit(self.sequence, self.part, content, count)

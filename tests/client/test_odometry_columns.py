@@ -1,10 +1,11 @@
 """Odometry of captures in map and delta files."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
-from placecell_client import CompactMap, Delta, MapFileError, decode, encode
+from placecell_client import Delta, MapFileError, decode, encode
 from placecell_client.maps.canonical import canonical
 from placecell_client.maps.delta_file import decode_delta, encode_delta
 from placecell_client.maps.edit import apply, delta_between, difference, take
@@ -27,6 +28,7 @@ def test_odometry_follows_its_capture_when_captures_are_sorted_and_dropped() -> 
     given = canonical(with_tracks(random_map(segments=40, frames=5)))
     kept = canonical(take(given, given.frame_index != 1))
     rows = [0, 2, 3, 4]
+    assert given.frame_odometry is not None
     np.testing.assert_array_equal(kept.frame_odometry, given.frame_odometry[rows])
     shuffled = replace(
         given,
@@ -85,7 +87,7 @@ def test_rigid_transform_keeps_the_odometry() -> None:
         ({"frame_odometry": np.full((3, 7), -1.0)}, "negative"),
     ],
 )
-def test_invalid_odometry_is_named(change: dict[str, object], named: str) -> None:
+def test_invalid_odometry_is_named(change: dict[str, Any], named: str) -> None:
     told = with_tracks(random_map(segments=20, frames=3))
     with pytest.raises(MapFileError, match=named):
         replace(told, **change).check()

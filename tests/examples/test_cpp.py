@@ -32,7 +32,7 @@ from placecell_client.maps.compact_map import OPTIONAL
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.child_process import running_service
-from tests.client.map_builders import random_map
+from tests.client.map_builders import random_map, with_tracks
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "cpp"
 GXX = ["g++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror"]

@@ -1,5 +1,7 @@
 """Maps of robots that drive around a block of landmarks with drifting odometry."""
 
+from typing import Any
+
 import numpy as np
 from placecell_client import CompactMap
 from placecell_client.maps.canonical import canonical
@@ -66,7 +68,7 @@ def drifting_map(
         codes.append(40 * (looks[near] + 0.1 * rng.standard_normal((len(near), DIMENSION))))
         frames.append(np.full(len(near), capture))
     count = sum(map(len, codes))
-    extra = {}
+    extra: dict[str, Any] = {}
     if odometry:
         extra = {
             "frame_tracks": np.full(len(true), 1 + seed, np.uint32),
@@ -82,7 +84,7 @@ def drifting_map(
         robots=(robot,),
         robot=np.zeros(count, np.uint16),
         frame_index=np.concatenate(frames).astype(np.uint32),
-        frame_times=1e9 + 5.0 * np.arange(len(true)),
+        frame_times=1e9 + 5.0 * np.arange(len(true), dtype=np.float64),
         frame_positions=positions,
         frame_orientations=Rotation.from_euler("z", yaws[:, None]).as_quat().astype(np.float32),
         **extra,
