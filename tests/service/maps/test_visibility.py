@@ -1,6 +1,7 @@
 """Visibility: a key of some maps learns nothing about other maps and keys."""
 
 import hashlib
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -125,7 +126,13 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
             {"content": b"rubbish"},
         ],
     }
+    known = service.get("/events?seconds=0", headers=ann).text
+    first = re.search(r"^id: ?(\w+)-\d+$", known, re.MULTILINE)
+    assert first is not None, known
+    ann = ann | {"Last-Event-ID": f"{first[1]}-0"}  # `/events` tells all that was before.
+    assert "hall-site" in service.get("/events?seconds=0", headers=ann).text
     options: dict[str, list[str]] = {
+        "/events": ["seconds=0"],
         "/maps/{map}/ids": ["count=3"],
         "/maps/{map}/export": ["to=ply", "to=pcd&color=robot", "to=geojson&anchor=49,8"],
         "/maps/{map}/scans": ["robot=zoe", "robot=ann"],
