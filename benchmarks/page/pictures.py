@@ -38,11 +38,12 @@ def take_pictures(folder: Path, seed: int, progress: Progress) -> list[Path]:
         scan = robots.scan_file(Path(scratch))
         with running_service(Path(scratch) / "service") as address:
             robots.store(address)
-            report_robots(address, robots)
             for width, ending in WIDTHS.items():
                 for name, act in views(scan).items():
                     page = browser.new_page(viewport={"width": width, "height": 800})
                     page.goto(address)
+                    page.get_by_text("connected", exact=True).wait_for()
+                    report_robots(address, robots)
                     act(page)
                     # Points are refined, and paths drawn, when the view is at rest.
                     page.wait_for_timeout(1500)

@@ -11,6 +11,7 @@ from robot.zenoh.rmw import (
     attachment,
     node_token,
     publisher_id,
+    reply_attachment,
     topic_of_token,
     topic_token,
 )
@@ -161,6 +162,20 @@ class ZenohBus:
             declared = self._session.declare_subscriber(key, take)
         self._held.append(declared)
         self._token("MS", topic)
+
+    def serve(self, service: TopicType, answer: Callable[[bytes], bytes]) -> None:
+        """Answer the requests of a service with a function, from a thread of Zenoh."""
+
+        def take(query: Any) -> None:
+            request = b"" if query.payload is None else query.payload.to_bytes()
+            asked = None if query.attachment is None else query.attachment.to_bytes()
+            extra = reply_attachment(asked, time.time_ns())
+            query.reply(query.key_expr, answer(request), attachment=extra)
+
+        # Clients of rmw_zenoh ask complete queryables only.
+        key = service.any_key(self._domain)
+        self._held.append(self._session.declare_queryable(key, take, complete=True))
+        self._token("SS", service)
 
     def topics(self, seconds: float = 1.0) -> dict[str, str]:
         """Return the type of each topic that is published on the domain, by its name."""

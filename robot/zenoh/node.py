@@ -14,6 +14,7 @@ from robot.zenoh import cdr
 from robot.zenoh.address import ZenohAddress
 from robot.zenoh.bus import ZenohBus
 from robot.zenoh.rmw import NO_HASH, Quality, TopicType
+from robot.zenoh.services import TRIGGER, trigger_hash, write_trigger_response
 
 T = TypeVar("T")
 
@@ -21,6 +22,7 @@ SENSOR = Quality(5, best_effort=True)
 RELIABLE = Quality(10)
 TRANSFORM = Quality(100)
 LATCHED = Quality(1, transient_local=True)
+REQUESTED = "A pose is requested at the next scan; now: {}."
 log = logging.getLogger(__name__)
 
 
@@ -102,4 +104,12 @@ def run_on_zenoh(
         subscribe(address.odom, cdr.ODOMETRY, SENSOR, cdr.read_odometry, node.on_odometry)
         subscribe(address.points, cdr.CLOUD, SENSOR, cdr.read_cloud, node.on_cloud)
         subscribe(address.initialpose, cdr.POSE, RELIABLE, cdr.read_pose, node.on_initial_pose)
+
+        def localize(_: bytes) -> bytes:
+            node.on_localize()
+            return write_trigger_response(True, REQUESTED.format(agent.status.state.value))
+
+        kind_hash = NO_HASH if address.distro == "humble" else trigger_hash()
+        name = f"/{address.node}/localize"
+        bus.serve(TopicType(name, TRIGGER, kind_hash, RELIABLE), localize)
         node.run(stop)

@@ -14,8 +14,12 @@ from typing import Literal
 NO_HASH = "TypeHashNotSupported"
 """Hash of every type in ROS 2 Humble, which has no type hashes."""
 
-EntityKind = Literal["NN", "MP", "MS"]
-"""Node, publisher and subscription."""
+CLIENT_BYTES = 16
+"""Length of the id of a publisher or a client."""
+ATTACHMENT_BYTES = 17 + CLIENT_BYTES
+
+EntityKind = Literal["NN", "MP", "MS", "SS"]
+"""Node, publisher, subscription and server of a service."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +44,7 @@ class Quality:
 
 @dataclass(frozen=True, slots=True)
 class TopicType:
-    """Topic with its type.
+    """Topic or service with its type.
 
     Attributes:
         name: absolute name, such as `/points`.
@@ -65,7 +69,7 @@ class TopicType:
         return f"{domain}/{self.name.strip('/')}/{self.dds_type}/{self.hash}"
 
     def any_key(self, domain: int) -> str:
-        """Return the key expression of the topic with any hash, for subscriptions."""
+        """Return the key expression of the topic with any hash, for subscriptions and servers."""
         return f"{domain}/{self.name.strip('/')}/{self.dds_type}/*"
 
 
@@ -88,7 +92,7 @@ def topic_token(
         domain: ROS_DOMAIN_ID.
         zid: id of the session.
         node: name of the node.
-        kind: `MP` or `MS`.
+        kind: `MP`, `MS` or `SS`.
         number: id of the publisher or subscription within the session, from 1.
         topic: topic.
     """
@@ -113,6 +117,19 @@ def topic_of_token(token: str) -> tuple[EntityKind, str, str] | None:
 def publisher_id(token: str) -> bytes:
     """Return the id of a publisher, 16 bytes that are unique to its token."""
     return hashlib.blake2b(token.encode(), digest_size=16).digest()
+
+
+def reply_attachment(request: bytes | None, time_ns: int) -> bytes:
+    """Return the attachment of a response: sequence number and client are those of the request.
+
+    Args:
+        request: attachment of the request; None: the request has none, so no client waits for them.
+        time_ns: time of the response, nanoseconds since the epoch.
+    """
+    if request is None or len(request) != ATTACHMENT_BYTES or request[16] != CLIENT_BYTES:
+        return attachment(0, time_ns, bytes(CLIENT_BYTES))
+    (sequence,) = struct.unpack_from("<q", request)
+    return attachment(sequence, time_ns, request[17:])
 
 
 def attachment(sequence: int, time_ns: int, publisher: bytes) -> bytes:

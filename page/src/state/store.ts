@@ -60,9 +60,11 @@ export const currentSummary = computed<MapSummary | null>(
   () => list.value?.maps.find((each) => each.name === current.value) ?? null,
 );
 
-/** Names of the robots of the open maps and of those that report, sorted: each has one color everywhere. */
-const robotNames = computed(() =>
-  [...new Set([...[...open.value.values()].flatMap((each) => each.robots), ...robots.value.map((each) => each.robot)])].sort().join("\n"));
+/** Names of the robots of the open maps, then of those that report: each has one color everywhere. */
+const robotNames = computed(() => {
+  const mapped = [...open.value.values()].flatMap((each) => each.robots).sort();
+  return [...new Set([...mapped, ...robots.value.map((each) => each.robot).sort()])].join("\n");
+});
 const robotNumbers = computed(() => new Map(robotNames.value.split("\n").map((name, place) => [name, place])));
 
 export const robotColor = (name: string): Color => kindColor(robotNumbers.value.get(name) ?? 0);

@@ -18,6 +18,8 @@ from robot.zenoh import cdr
 from robot.zenoh.address import ZenohAddress
 from robot.zenoh.bus import BusPublisher, MissingZenohError, ZenohBus, ZenohError
 from robot.zenoh.node import LATCHED, RELIABLE, SENSOR, TRANSFORM, run_on_zenoh, topic
+from robot.zenoh.rmw import TopicType, attachment, publisher_id
+from robot.zenoh.services import TRIGGER, trigger_hash
 from tests.robot.node.node_fakes import FakeAgent, cloud, moved, odometry
 
 pytestmark = pytest.mark.slow
@@ -164,3 +166,48 @@ def test_node_localizes_by_the_topics_of_another_program(other: ZenohBus, endpoi
     assert poses[0].frame == "map"
     assert agent.scans[0][2][2, 3] == 1.5  # the mount of the sensor
     assert agent.initial_poses[0][0][:3, 3].tolist() == [3, 0, 1.5]
+
+
+@pytest.mark.parametrize("distro", ["", "humble"])
+def test_service_of_the_node_requests_a_pose(other: ZenohBus, endpoint: str, distro: str) -> None:
+    import zenoh
+
+    agent, stop = FakeAgent(), threading.Event()
+    address = ZenohAddress(connect=(endpoint,), node="rover", distro=distro)
+    arguments = (agent, address, NodeSettings(), stop)
+    thread = threading.Thread(target=run_on_zenoh, args=arguments)
+    thread.start()
+    # As a client of rmw_zenoh asks.
+    type_hash = "TypeHashNotSupported" if distro else trigger_hash()
+    service = TopicType("/rover/localize", TRIGGER, type_hash, RELIABLE)
+    client = publisher_id("client")
+    answers: list[Any] = []
+
+    def call() -> bool:
+        replies = other._session.get(
+            service.key(0),
+            target=zenoh.QueryTarget.ALL_COMPLETE,
+            consolidation=zenoh.ConsolidationMode.NONE,
+            payload=b"\x00\x01\x00\x00\x00",
+            attachment=attachment(7, 1, client),
+            timeout=2.0,
+        )
+        answers.extend(reply.ok for reply in replies if reply.ok is not None)
+        return bool(answers)
+
+    try:
+        wait_for(call)
+        wait_for(lambda: agent.requests)
+        tokens = other._session.liveliness().get("@ros2_lv/0/**", timeout=2.0)
+        servers = [str(each.ok.key_expr) for each in tokens if each.ok is not None]
+    finally:
+        stop.set()
+        thread.join(10)
+    assert str(answers[0].key_expr) == service.key(0)
+    extra = answers[0].attachment.to_bytes()
+    assert (extra[:8], extra[16:]) == ((7).to_bytes(8, "little"), b"\x10" + client)
+    content = answers[0].payload.to_bytes()
+    assert content[:5] == b"\x00\x01\x00\x00\x01"
+    assert content[12:].startswith(b"A pose is requested at the next scan; now: ")
+    named = f"SS/%/%/rover/%rover%localize/std_srvs::srv::dds_::Trigger_/{type_hash}/::,10:,:,:,,"
+    assert any(each.endswith(named) for each in servers)

@@ -10,9 +10,11 @@ from robot.zenoh.rmw import (
     attachment,
     node_token,
     publisher_id,
+    reply_attachment,
     topic_of_token,
     topic_token,
 )
+from robot.zenoh.services import service_hash, trigger_hash, write_trigger_response
 
 STRING_HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 CHATTER = TopicType("/chatter", "std_msgs/msg/String", STRING_HASH, Quality(7))
@@ -58,3 +60,28 @@ def test_attachment_has_33_bytes() -> None:
     assert publisher != publisher_id(TALKER.replace("/10/", "/11/"))
     expected = (3).to_bytes(8, "little") + (5).to_bytes(8, "little") + b"\x10" + publisher
     assert attachment(3, 5, publisher) == expected
+
+
+def test_hash_of_a_service_equals_that_of_ros() -> None:
+    pytest.importorskip("rosbags", reason="rosbags is not installed")
+    request, response = "int64 a\nint64 b\n", "int64 sum\n"
+    # The example of rmw_zenoh's design document.
+    assert service_hash("example_interfaces/srv/AddTwoInts", request, response) == (
+        "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"
+    )
+    assert trigger_hash() == (
+        "RIHS01_eeff2cd6fa5ad9d27cdf4dec64818317839b62f212a91e6b5304b634b2062c5f"
+    )
+
+
+def test_response_of_a_trigger_is_cdr() -> None:
+    # Header, success with padding, length with the zero, text.
+    expected = "00010000" + "01000000" + "03000000" + b"ok\0".hex()
+    assert write_trigger_response(True, "ok").hex() == expected
+
+
+def test_response_names_the_request_of_its_client() -> None:
+    client = publisher_id(TALKER)
+    assert reply_attachment(attachment(7, 1, client), 5) == attachment(7, 5, client)
+    for other in (None, b"", bytes(33), b"x" * 33):
+        assert reply_attachment(other, 5) == attachment(0, 5, bytes(16))
