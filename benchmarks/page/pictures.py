@@ -104,7 +104,7 @@ def views(scan: Path) -> dict[str, Callable[["Page"], None]]:
     def watch(page: "Page") -> None:
         show(page, "yard")
         page.get_by_role("button", name="Robots").click()
-        page.get_by_role("main").get_by_text("carol").wait_for()
+        page.get_by_role("main").get_by_text("carol").first.wait_for()
 
     def service(page: "Page") -> None:
         locate(page)
