@@ -55,12 +55,14 @@ class LegResult:
     """Result of one start or kidnap.
 
     Attributes:
-        begun_at: distance driven at its start, meters.
-        until_localized: distance until the pose was known, meters; None if it never was.
+        inside: distance driven inside the map until the pose was known, meters.
+        outside: distance driven outside the map until then, meters.
+        localized: whether the pose was known at last.
     """
 
-    begun_at: float
-    until_localized: float | None = None
+    inside: float = 0.0
+    outside: float = 0.0
+    localized: bool = False
 
 
 def run_live(
@@ -195,36 +197,46 @@ class Judge:
             from_map: true distance from the mapped path, meters.
         """
         if self._last is None or scan.leg != self._last.leg:
-            self.legs.append(LegResult(self._meters))
+            self.legs.append(LegResult())
         else:
             step = scan.true_pose[:3, 3] - self._last.true_pose[:3, 3]
-            self._meters += float(np.linalg.norm(step))
+            self._drive(float(np.linalg.norm(step)), from_map)
         self._last = scan
         self._judge_border(agent, from_map)
         found = agent.map_to_odom
         leg = self.legs[-1]
         if found is None or not agent.status.is_sure:
-            self.unsure += leg.until_localized is not None
+            self.unsure += leg.localized
             return
         offset, angle = errors(found.pose(scan.odom_pose), scan.true_pose)
         if offset > WRONG[0] or angle > WRONG[1]:
             self.wrong += 1
-        if leg.until_localized is None:
+        if not leg.localized:
             # The pose of before the kidnap counts as wrong, not as localized.
             if offset > WRONG[0] or angle > WRONG[1]:
                 return
-            leg.until_localized = self._meters - leg.begun_at
+            leg.localized = True
         if from_map <= INSIDE_METERS:
             self.offsets.append(offset)
             self.angles.append(angle)
+
+    def _drive(self, meters: float, from_map: float) -> None:
+        """Count driven meters, and those until the leg is localized."""
+        self._meters += meters
+        leg = self.legs[-1]
+        if not leg.localized:
+            if from_map <= INSIDE_METERS:
+                leg.inside += meters
+            else:
+                leg.outside += meters
 
     def figures(self) -> dict[str, Any]:
         """Return the figures so far."""
         return {
             "meters_until_localized": [
-                None if each.until_localized is None else round(each.until_localized, 1)
-                for each in self.legs
+                round(each.inside, 1) if each.localized else None for each in self.legs
             ],
+            "meters_outside_before": [round(each.outside, 1) for each in self.legs],
             "worst_offset_m": round(max(self.offsets, default=0.0), 3),
             "worst_angle_deg": round(max(self.angles, default=0.0), 2),
             "median_offset_m": round(float(np.median(self.offsets)), 3) if self.offsets else None,

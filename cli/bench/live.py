@@ -48,9 +48,10 @@ def live(
     until = [each for each in report["meters_until_localized"] if each is not None]
     typer.echo(
         f"{report['meters']:,.0f} m, {report['kidnaps']} kidnaps: localized "
-        f"{len(until)} of {report['kidnaps'] + 1} times, after at most {max(until, default=0)} m. "
-        f"Worst offset {report['worst_offset_m']} m and {report['worst_angle_deg']} degrees inside "
-        f"the map, {report['wrong_but_sure']} poses wrong but sure. Leaving the map was "
+        f"{len(until)} of {report['kidnaps'] + 1} times, after at most {max(until, default=0)} m "
+        "inside the map. "
+        f"Worst offset {report['worst_offset_m']} m and {report['worst_angle_deg']} degrees there, "
+        f"{report['wrong_but_sure']} poses wrong but sure. Leaving the map was "
         f"{'' if report['left_noticed'] else 'not '}noticed, coming back was "
         f"{'' if report['returned_noticed'] else 'not '}noticed."
     )

@@ -2,6 +2,8 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -9,7 +11,9 @@ from placecell_client import encode
 from placecell_client.maps.edit import take
 
 from benchmarks.live.faults import FaultPlan, compared, fixes_in, keyframes_in, run_faults
-from benchmarks.live.live import LivePlan, legs_of, run_live
+from benchmarks.live.live import Judge, LivePlan, legs_of, run_live
+from benchmarks.live.town_drive import LiveScan
+from robot.agent import RobotAgent
 from tests.client.map_builders import random_map
 from town import two_robots
 
@@ -31,6 +35,23 @@ def test_robot_is_localized_after_a_kidnap_and_notices_the_edge_of_the_map() -> 
     assert all(each is not None and each <= 25.0 for each in report["meters_until_localized"])
     assert report["scans_dropped"] == 0
     assert told
+
+
+def test_meters_outside_the_map_are_not_counted_until_localized() -> None:
+    judge = Judge()
+    lost = SimpleNamespace(map_to_odom=None, status=SimpleNamespace(is_sure=False, state=None))
+    found = SimpleNamespace(
+        map_to_odom=SimpleNamespace(pose=lambda pose: pose),
+        status=SimpleNamespace(is_sure=True, state=None),
+    )
+    for number, (agent, from_map) in enumerate([(lost, 50), (lost, 40), (lost, 1), (found, 1)]):
+        pose = np.eye(4)
+        pose[0, 3] = 2.0 * number
+        scan = SimpleNamespace(leg=0, true_pose=pose, odom_pose=pose)
+        judge.add(cast("LiveScan", scan), cast("RobotAgent", agent), float(from_map))
+    figures = judge.figures()
+    assert figures["meters_until_localized"] == [4.0]
+    assert figures["meters_outside_before"] == [2.0]
 
 
 def test_legs_follow_from_the_seed() -> None:
