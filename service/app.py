@@ -3,10 +3,12 @@
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 from starlette.middleware.cors import CORSMiddleware
 
 from service.api import error_handlers, openapi
+from service.api.body.problem_json import documented
+from service.api.dependencies import caught_up
 from service.api.middleware.body_limit import BodyLimit
 from service.api.middleware.head import Head
 from service.api.middleware.origin_guard import OriginGuard
@@ -72,6 +74,21 @@ ROUTES = (
 )
 """Modules of the routes, in the order of the API description."""
 
+MAP_ROUTES = (
+    match,
+    localize,
+    scans,
+    coverage,
+    maps,
+    exports,
+    uploads,
+    segments,
+    versions,
+    align,
+    anchors,
+)
+"""Modules whose routes read or write maps, which other services may have written."""
+
 DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.
 
 Send the segments of a scan. The answer holds their descriptors, the nearest segments of stored
@@ -136,5 +153,10 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
         docs_pages.install(app)
     page.install(app, settings.page)
     for module in ROUTES:
-        app.include_router(module.router)
+        if module in MAP_ROUTES:
+            app.include_router(
+                module.router, dependencies=[Depends(caught_up)], responses=documented(422, 503)
+            )
+        else:
+            app.include_router(module.router)
     return app

@@ -18,7 +18,7 @@ and serializes the result. The engine needs no HTTP library.
 """
 
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -52,12 +52,13 @@ from service.live.alarms import StoreWatch
 from service.live.events import EventRing
 from service.live.robots import Robots
 from service.maps.cache import MapCache
+from service.maps.following.follower import Follower
 from service.maps.history import commits_of, version_file
 from service.maps.quotas import Quotas
 from service.maps.repository import MapRepository
 from service.maps.shared_index import Patterns
 from service.maps.snapshot import MapSnapshot
-from service.maps.store import Commit, StoreError, StoreLockedError
+from service.maps.store import Commit, MapStore, SharedStore, StoreError, StoreLockedError
 from service.maps.stores import open_store
 from service.maps.sync import MapSync, SyncPage
 from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
@@ -102,6 +103,7 @@ class Engine:
         partial_uploads: map files that are uploaded in parts and are not complete.
         sync: incremental transfers of maps, for robots that keep a copy.
         sessions: results of robots' last requests.
+        follower: loads what other services write to the database; None without a database.
         robots: last pose and state of each robot.
         events: what happens, for clients that listen.
     """
@@ -131,7 +133,9 @@ class Engine:
             try:
                 store = opened.enter_context(open_store(settings))
                 cache = MapCache(settings.data_dir)
-                self.maps = MapRepository(store, self.models, Quotas(limits), cache)
+                self.maps = MapRepository(
+                    store, self.models, Quotas(limits), cache, patterns=settings.maps
+                )
             except (StoreLockedError, StoreError) as error:
                 raise StartError(f"data directory: {error}") from error
             except OSError as error:
@@ -141,6 +145,12 @@ class Engine:
             except StoreError as error:
                 raise StartError(f"data directory: {error}") from error
             self.maps.on_delete = self.annotations.forget
+            self.follower: Follower | None = None
+            if isinstance(store, SharedStore):
+                reload = partial(self.annotations.reload, read=store.annotations_of)
+                self.follower = Follower(store, self.maps, reload)
+                opened.enter_context(self.follower.running())
+                metrics.store_lag.set_function(self.follower.lag)
             self.sync = MapSync(store)
             self.partial_uploads = PartialUploads(settings.data_dir, limits)
             self.sessions = Sessions(limits.sessions)
@@ -151,7 +161,13 @@ class Engine:
                 map_bytes=limits.map_stored_bytes, all_bytes=limits.stored_bytes
             )
             maintenance = Maintenance(
-                self.maps, self.sync, cache, bounds, self.partial_uploads, watch.check
+                self.maps,
+                self.sync,
+                cache,
+                bounds,
+                self.partial_uploads,
+                watch.check,
+                _alone(store),
             )
             opened.enter_context(maintenance.running())
             self._open_parts = opened.pop_all()
@@ -232,6 +248,18 @@ class Engine:
             limits=self.settings.limits.model_dump(),
             map_file_version=VERSION,
         )
+
+    def unready(self) -> str | None:
+        """Return why requests should go to another instance; None if they should not."""
+        if self.follower is not None:
+            return self.follower.trouble()
+        trouble = self.maps.trouble()
+        return None if trouble is None else f"Maps cannot be written. {trouble}"
+
+    def warnings(self) -> list[str]:
+        """Return problems that an operator should solve although the engine works."""
+        warning = None if self.follower is None else self.follower.warning()
+        return [] if warning is None else [warning]
 
     def _maps_with(self, state: CalibrationState) -> int:
         """Return the number of maps whose latest calibration has this state."""
@@ -622,3 +650,8 @@ class Engine:
         """Return a writer after the check that the principal may write a map; 403 if not."""
         principal.check_write(name)
         return self.writer(principal, conditions)
+
+
+def _alone(store: MapStore) -> Callable[[], AbstractContextManager[bool]]:
+    """Return what yields whether this process may do maintenance of the store."""
+    return store.alone if isinstance(store, SharedStore) else lambda: nullcontext(True)

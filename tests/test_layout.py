@@ -64,6 +64,7 @@ LAYERS = (
     ("service.maps",),
     ("service.maps.sql",),
     ("service.maps.sqlite", "service.maps.postgres", "service.maps.writes"),
+    ("service.maps.following",),
     ("service.maps.stores",),
     ("service.annotations", "service.backup"),
     ("service.search",),

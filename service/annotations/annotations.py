@@ -14,6 +14,7 @@ from placecell.core.geodesy import GeoAnchor
 from placecell.localization import Pose
 from service.core.settings import Limits
 from service.maps.quotas import OverQuotaError
+from service.maps.repository import OutdatedError
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import Annotation, MapStore
 
@@ -115,6 +116,16 @@ class Annotations:
         with self._lock:
             self._by_uid.pop(uid, None)
 
+    def reload(self, uid: str, read: Callable[[str], Sequence[Annotation]]) -> None:
+        """Replace the annotations of a map by those that the store has now.
+
+        Args:
+            uid: uid of the map.
+            read: reads its annotations from the store.
+        """
+        with self._lock:  # no write of this service comes between reading and replacing
+            self._by_uid[uid] = _parsed(read(uid))
+
     def write(
         self,
         snapshot: MapSnapshot,
@@ -144,7 +155,10 @@ class Annotations:
             kept |= {(each.kind, each.name): each for each in rows}
             after = _parsed(list(kept.values()))
             self._check(before, after)
-            self._store.annotate(uid, rows, removed)
+            try:
+                self._store.annotate(uid, rows, removed)
+            except KeyError as error:  # another service deleted the map
+                raise OutdatedError(snapshot.name) from error
             self._by_uid[uid] = after
             return after
 

@@ -21,6 +21,7 @@ from service.core.preconditions import Preconditions
 from service.core.problems import Problem
 from service.maps.repository import MapRepository
 from service.maps.snapshot import MapSnapshot
+from service.maps.writes.newest import on_newest
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +43,7 @@ class AnnotationWriter:
     principal: Principal
     conditions: Preconditions
 
+    @on_newest
     def set_tags(self, name: str, tags: Sequence[str]) -> MapAnnotations:
         """Replace the tags of a map."""
         self.principal.check_all()
@@ -57,6 +59,7 @@ class AnnotationWriter:
                 [(TAG, tag) for tag in before if tag not in tags],
             )
 
+    @on_newest
     def set_geo(self, name: str, anchor: GeoAnchor) -> tuple[MapSnapshot, StoredGeoAnchor]:
         """Set the WGS 84 anchor of a map."""
         with self.maps.writing(name):
@@ -70,6 +73,7 @@ class AnnotationWriter:
             assert after is not None  # it was written
             return snapshot, after
 
+    @on_newest
     def remove_geo(self, name: str) -> None:
         """Remove the WGS 84 anchor of a map; 404 if it has none."""
         with self.maps.writing(name):
@@ -80,6 +84,7 @@ class AnnotationWriter:
             self._check_author(before)
             self.annotations.write(snapshot, self.principal.name, [], [(GEO, "")])
 
+    @on_newest
     def set_named(self, name: str, anchor: str, pose: Pose) -> tuple[MapSnapshot, NamedAnchor]:
         """Add or replace a named anchor of a map."""
         with self.maps.writing(name):
@@ -91,6 +96,7 @@ class AnnotationWriter:
                 self.annotations.write(snapshot, self.principal.name, [(NAMED, anchor, value)])
             return snapshot, self.annotations.of(snapshot).named[anchor]
 
+    @on_newest
     def remove_named(self, name: str, anchor: str) -> None:
         """Remove a named anchor of a map; 404 if there is none."""
         with self.maps.writing(name):

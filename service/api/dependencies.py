@@ -3,8 +3,11 @@
 from collections.abc import AsyncIterator, Callable, Collection
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, ParamSpec, TypeVar
 
+import anyio
+import anyio.to_thread
 from fastapi import Depends, Header, Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
@@ -19,6 +22,11 @@ from service.maps.writes.writer import MapWriter, WriteResult
 
 Result = TypeVar("Result")
 Parameters = ParamSpec("Parameters")
+
+SEEN_HEADER = "Placecell-Seen"
+
+CATCH_UP_SECONDS = 8.0
+"""Seconds within which the versions that a request needs must be loaded."""
 
 BEARER = HTTPBearer(
     auto_error=False,
@@ -46,6 +54,39 @@ async def principal_of(
     return principal
 
 
+StateOf = Annotated[State, Depends(state_of)]
+PrincipalOf = Annotated[Principal, Depends(principal_of)]
+
+
+async def caught_up(
+    state: StateOf,
+    principal: PrincipalOf,
+    seen: Annotated[
+        str | None,
+        Header(
+            alias=SEEN_HEADER,
+            description="Versions of maps that the client has written or read, as MAP ETAG, "
+            "separated by commas. A service that shares a database loads them before it answers.",
+        ),
+    ] = None,
+) -> None:
+    """Load the versions that the request needs, if other services wrote them; 503 if it cannot."""
+    del principal  # nothing is loaded for a request without a known key
+    follower = state.engine.follower
+    if follower is None:
+        return
+    needs: list[Callable[[], None]] = []
+    if seen is not None and not follower.has_all(seen):
+        needs.append(partial(follower.catch_up_with, seen))
+    if state.settings.reads == "latest":
+        needs.append(follower.catch_up_all)
+    for load in needs:
+        with anyio.move_on_after(CATCH_UP_SECONDS) as scope:
+            await anyio.to_thread.run_sync(load, abandon_on_cancel=True, limiter=state.catching_up)
+        if scope.cancelled_caught:
+            raise follower.behind()
+
+
 async def preconditions_of(
     if_match: Annotated[
         str | None,
@@ -67,8 +108,6 @@ async def timing_of(request: Request) -> Timing:
     return timing
 
 
-StateOf = Annotated[State, Depends(state_of)]
-PrincipalOf = Annotated[Principal, Depends(principal_of)]
 TimingOf = Annotated[Timing, Depends(timing_of)]
 ConditionsOf = Annotated[Preconditions, Depends(preconditions_of)]
 

@@ -2,8 +2,10 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ParamSpec, TypeVar
+
+from anyio import CapacityLimiter
 
 from service.api.admission.admission import Lane, admitted
 from service.api.admission.receiving import BodyRules, ByteBudget, Receiver
@@ -21,6 +23,9 @@ READ_THREADS = 2
 
 WRITE_THREADS = 4
 """Threads that edit maps."""
+
+CATCH_UP_THREADS = 8
+"""Threads that load versions of maps that a client has seen at another service."""
 
 Result = TypeVar("Result")
 Parameters = ParamSpec("Parameters")
@@ -110,6 +115,7 @@ class State:
         answers: sends large answers.
         tracing: source of the spans of requests; None without traces.
         draining: whether the service is about to stop; it is then no longer ready.
+        catching_up: limits the threads that load maps for requests.
     """
 
     engine: Engine
@@ -118,6 +124,7 @@ class State:
     answers: Answers
     tracing: Tracing | None = None
     draining: bool = False
+    catching_up: CapacityLimiter = field(default_factory=lambda: CapacityLimiter(CATCH_UP_THREADS))
 
     @property
     def settings(self) -> Settings:

@@ -60,6 +60,12 @@ class Metrics:
             "placecell_writes", "Number of writes to maps.", ["operation"], registry=of
         )
         self.maps = Gauge("placecell_maps", "Number of stored maps.", registry=of)
+        self.store_lag = Gauge(
+            "placecell_store_lag_seconds",
+            "Seconds since all maps were level with the database; 0 without a database. Up to a "
+            "second is usual.",
+            registry=of,
+        )
         self.map_segments = Gauge(
             "placecell_map_segments", "Number of segments in all maps.", registry=of
         )

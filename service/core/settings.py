@@ -337,6 +337,17 @@ class Settings(BaseSettings):
         description="Database of the stored maps: postgresql://USER:PASSWORD@HOST:PORT/DATABASE, "
         "which several services may use. If it is empty, the maps are in the data directory.",
     )
+    maps: tuple[str, ...] = Field(
+        default=(),
+        description="Patterns of the names of the maps to load, as a JSON list, such as "
+        '["site-*"]; requests for other maps get a 404. If it is empty, all maps are loaded.',
+    )
+    reads: Literal["followed", "latest"] = Field(
+        default="followed",
+        description="Versions that a service with a database answers from: those in memory, which "
+        "follow the database within milliseconds (followed), or the newest ones, which costs each "
+        "request a query (latest).",
+    )
     models_dir: Path = Field(
         default=MODELS_FOLDER, description="Folder that holds one folder per model."
     )

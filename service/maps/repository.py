@@ -2,9 +2,11 @@
 
 import logging
 import time
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from fnmatch import fnmatchcase
 from threading import Lock
 from weakref import WeakValueDictionary
 
@@ -27,6 +29,21 @@ from service.maps.store import Ids, MapHead, MapStore, Note, StoreError
 logger = logging.getLogger("placecell")
 
 
+KNOWN_VERSIONS = 64
+"""Number of last versions of each map that `has_had` knows."""
+
+
+class OutdatedError(Problem):
+    """Another service wrote to the map, so this write does not follow its newest version."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(
+            409,
+            "map-changed",
+            f"Another service wrote to map {name!r:.80} meanwhile; nothing was changed. Try again.",
+        )
+
+
 class MapRepository:
     """All maps in memory, by name. Safe to use from many threads.
 
@@ -38,6 +55,7 @@ class MapRepository:
         shared: indexes that several small maps share.
         copied_segments: number of segments that writes have copied.
         on_delete: is called with the uid of each map that was deleted.
+        catch_up: loads what other services wrote to the map of a name.
     """
 
     def __init__(
@@ -47,9 +65,21 @@ class MapRepository:
         quotas: Quotas,
         cache: MapCache,
         clock: Callable[[], float] = time.time,
+        patterns: Sequence[str] = (),
     ) -> None:
-        """Load the stored maps. A damaged map is logged and not served."""
+        """Load the stored maps. A damaged map is logged and not served.
+
+        Args:
+            store: the store.
+            models: loaded models.
+            quotas: quotas of the maps.
+            cache: files of versions, for a fast start.
+            clock: returns Unix seconds.
+            patterns: patterns of the names of the maps to load; none: all maps.
+        """
         self.store = store
+        self.patterns = patterns
+        self.catch_up: Callable[[str], None] = lambda _: None
         self.shared = SharedIndexes()
         self.copied_segments = 0
         self.on_delete: Callable[[str], None] = lambda _: None
@@ -63,8 +93,11 @@ class MapRepository:
         self._by_name: dict[str, MapSnapshot] = {}
         self._usage = Usage()
         self._refused: set[str] = set()
+        self._had: dict[str, deque[str]] = {}
         loaded = {}
         for head in store.heads():
+            if not self.serves(head.name):
+                continue
             try:
                 layers, base = load_newest(store, head, cache)
             except (StoreError, MapFileError) as error:
@@ -87,6 +120,11 @@ class MapRepository:
         }
         for snapshot in self._by_name.values():
             self._usage.add(snapshot.head, snapshot)
+            self._remember(snapshot)
+
+    def serves(self, name: str) -> bool:
+        """Return whether this service loads the map of this name, if there is one."""
+        return not self.patterns or any(fnmatchcase(name, each) for each in self.patterns)
 
     def index_all(self) -> None:
         """Index the maps whose models have been loaded since."""
@@ -96,8 +134,7 @@ class MapRepository:
                 snapshot = self._by_name.get(name)
                 if snapshot is not None and snapshot.index is None:
                     index = self._index(snapshot.layers)
-                    with self._committing:
-                        self._publish(replace(snapshot, index=index))
+                    self.exchange(snapshot, replace(snapshot, index=index))
 
     def __len__(self) -> int:
         return len(self._by_name)
@@ -129,8 +166,15 @@ class MapRepository:
         """Return the map of this name; None if there is none.
 
         Raises:
-            Problem: 500 if the map is damaged.
+            Problem: 500 if the map is damaged; 404 if this service does not load it.
         """
+        if not self.serves(name):
+            raise Problem(
+                404,
+                "unknown-map",
+                f"This service loads only maps named {', '.join(self.patterns)}, so not "
+                f"{name!r:.80}. Send the request to another service, or change PLACECELL_MAPS.",
+            )
         if name in self._damaged:
             raise Problem(
                 500,
@@ -138,6 +182,10 @@ class MapRepository:
                 f"Map {name!r} is damaged on disk; the log has the reason. Restore the data "
                 "directory from a backup, or delete the map and upload it again.",
             )
+        return self._by_name.get(name)
+
+    def peek(self, name: str) -> MapSnapshot | None:
+        """Return the map of this name, if it is served; raise nothing otherwise."""
         return self._by_name.get(name)
 
     def get(self, name: str) -> MapSnapshot:
@@ -182,7 +230,10 @@ class MapRepository:
             self._quotas.check_new(self._usage, author, robots, len(file))
             self.copied_segments += len(content)
             runs = runs_of(content.ids)
-            head = self.store.create(name, file, note, 0, Ids(runs, runs))
+            try:
+                head = self.store.create(name, file, note, 0, Ids(runs, runs))
+            except ValueError as error:  # another service created it
+                raise OutdatedError(name) from error
             return self._publish(
                 MapSnapshot(head=head, layers=layers, base_sequence=1, frame_since=1, index=index)
             )
@@ -226,7 +277,10 @@ class MapRepository:
             own = runs_of(written) if written is not None else ()
             ids = Ids(runs_of(delta.changed.ids), own)
             frees = not len(delta.changed) and not delta.is_whole
-            head = self.store.append(snapshot.head, blob, note, 0, ids, frees)
+            try:
+                head = self.store.append(snapshot.head, blob, note, 0, ids, frees)
+            except KeyError as error:
+                raise OutdatedError(snapshot.name) from error
             return self._publish(
                 MapSnapshot(
                     head=head,
@@ -241,7 +295,10 @@ class MapRepository:
         """Free all ids that no kept version has; the caller holds `writing`."""
         used = ids_ever(self.store, snapshot)
         with self._committing:
-            head = self.store.free_ids(snapshot.head.uid, used.tolist())
+            try:
+                head = self.store.free_ids(snapshot.head.uid, used.tolist(), snapshot.head.mark)
+            except KeyError as error:
+                raise OutdatedError(snapshot.name) from error
             self._publish(replace(self._by_name[snapshot.name], head=head))
             return head
 
@@ -250,7 +307,10 @@ class MapRepository:
         with self._committing:
             snapshot = self._by_name.get(name)
             head = self._damaged.get(name) or self.get(name).head
-            self.store.delete(head.uid)
+            try:
+                self.store.delete(head.uid, snapshot.head.mark if snapshot is not None else None)
+            except KeyError as error:
+                raise OutdatedError(name) from error
             self._usage.remove(head, snapshot)
             self.copied_segments += len(snapshot) if snapshot is not None else 0
             self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
@@ -272,8 +332,14 @@ class MapRepository:
             if snapshot.head.oldest >= sequence:
                 return snapshot
             with self._committing:
-                kept = self.store.compact(head.uid, sequence, file)
-                return self._publish(replace(snapshot, head=kept))
+                try:
+                    kept = self.store.compact(head.uid, sequence, file)
+                except KeyError as error:
+                    raise OutdatedError(head.name) from error
+                now = self._by_name.get(head.name)
+                if now is None or kept.mark != now.head.mark:
+                    return snapshot  # the follower loads what another service wrote
+                return self._publish(replace(now, head=kept))
 
     def flatten(self, snapshot: MapSnapshot) -> CompactMap | None:
         """Turn a map's two layers into one; writers wait only for the exchange.
@@ -290,9 +356,63 @@ class MapRepository:
             layers = now.layers.rebased(content, snapshot.layers)
             both = self._index(layers, index.base if index is not None else None)
             base = snapshot.head.sequence
-            with self._committing:
-                self._publish(replace(now, layers=layers, base_sequence=base, index=both))
+            after = replace(now, layers=layers, base_sequence=base, index=both)
+            if not self.exchange(now, after):
+                return None
         return content
+
+    def has_had(self, name: str, tag: str) -> bool:
+        """Return whether the map is at a version, or was at it lately."""
+        return tag in self._had.get(name, ())
+
+    def exchange(self, before: MapSnapshot | None, after: MapSnapshot | None) -> bool:
+        """Publish a state of a map without a write to the store; None: there is no map.
+
+        Returns:
+            False if `before` is no longer the present state; then nothing was published.
+        """
+        known = after if after is not None else before
+        assert known is not None  # nothing is exchanged for nothing
+        with self._committing:
+            if self._by_name.get(known.name) is not before:
+                return False
+            self._drop_damaged(known.name)
+            if after is not None:
+                self._publish(after)
+            elif before is not None:
+                self._usage.remove(before.head, before)
+                self._by_name = {
+                    key: kept for key, kept in self._by_name.items() if key != known.name
+                }
+            return True
+
+    def exchange_damaged(self, name: str, head: MapHead | None) -> None:
+        """Serve a map no more whose stored data cannot be read; None: the map was deleted."""
+        with self._committing:
+            self._drop_damaged(name)
+            before = self._by_name.get(name)
+            if before is not None:
+                self._usage.remove(before.head, before)
+                self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
+            if head is not None:
+                self._damaged = self._damaged | {name: head}
+                self._usage.add(head)
+
+    def damaged_head(self, name: str) -> MapHead | None:
+        """Return the head of a damaged map; None if there is none of this name."""
+        return self._damaged.get(name)
+
+    def indexed(self, layers: MapLayers, before: MapSnapshot | None) -> LayeredIndex | None:
+        """Return the index of layers, with the base of an earlier version's if it is the same."""
+        self._models.want({layers.base.model_id})
+        kept = before.index if before is not None and layers.base is before.layers.base else None
+        return self._index(layers, kept.base if kept is not None else None)
+
+    def _drop_damaged(self, name: str) -> None:
+        head = self._damaged.get(name)
+        if head is not None:
+            self._usage.remove(head)
+            self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
 
     def _publish(self, snapshot: MapSnapshot) -> MapSnapshot:
         """Publish a map in a new dictionary, so that readers of the old one are undisturbed.
@@ -304,7 +424,13 @@ class MapRepository:
             self._usage.remove(before.head, before)
         self._usage.add(snapshot.head, snapshot)
         self._by_name = self._by_name | {snapshot.name: snapshot}
+        self._remember(snapshot)
         return snapshot
+
+    def _remember(self, snapshot: MapSnapshot) -> None:
+        tags = self._had.setdefault(snapshot.name, deque(maxlen=KNOWN_VERSIONS))
+        if snapshot.tag not in tags:
+            tags.append(snapshot.tag)
 
     def _index(self, layers: MapLayers, base: MapIndex | None = None) -> LayeredIndex | None:
         model = self._models.find(layers.base.model_id)

@@ -6,10 +6,10 @@ commits after it. Each commit has a blob (a delta) that leads from one version t
 
 import hashlib
 import json
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal, Protocol, runtime_checkable
 
 NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
 
@@ -301,12 +301,13 @@ class MapStore(Protocol):
     def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
         """Return the last owner of each of these ids; None for ids without an owner."""
 
-    def free_ids(self, uid: str, used: Iterable[int]) -> MapHead:
+    def free_ids(self, uid: str, used: Iterable[int], mark: str | None = None) -> MapHead:
         """Forget the owners of unused ids; free ids begin after the used ones.
 
         Args:
             uid: uid of the map; KeyError if there is no such map.
             used: ids in use, ascending.
+            mark: mark of the newest version; KeyError if the map has another. None: any.
         """
 
     def annotations(self) -> dict[str, list[Annotation]]:
@@ -326,8 +327,13 @@ class MapStore(Protocol):
     def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:
         """Drop the versions before one, whose file is given; KeyError if it is not kept."""
 
-    def delete(self, uid: str) -> None:
-        """Remove a map with all its versions; KeyError if there is no such map."""
+    def delete(self, uid: str, mark: str | None = None) -> None:
+        """Remove a map with all its versions.
+
+        Args:
+            uid: uid of the map; KeyError if there is no such map.
+            mark: mark of the newest version; KeyError if the map has another. None: any.
+        """
 
     def snapshot(self) -> AbstractContextManager[StoreSnapshot]:
         """Read all maps at one moment, without blocking writers."""
@@ -349,6 +355,42 @@ class MapStore(Protocol):
 
     def trouble(self) -> str | None:
         """Return why the store accepts no writes; None if it accepts them."""
+
+
+@dataclass(frozen=True, slots=True)
+class SharedMap:
+    """State of a map in a store that several services write to.
+
+    Attributes:
+        head: head of the map.
+        annotated: number of writes of its annotations.
+    """
+
+    head: MapHead
+    annotated: int
+
+
+@runtime_checkable
+class SharedStore(MapStore, Protocol):
+    """Store that several services write to, each of which follows the writes of the others."""
+
+    def find(self, name: str) -> SharedMap | None:
+        """Return the newest state of a map; None if there is no such map."""
+
+    def shared_maps(self) -> list[SharedMap]:
+        """Return the newest states of all maps, by name."""
+
+    def annotations_of(self, uid: str) -> list[Annotation]:
+        """Return the annotations of a map; none if there is no such map."""
+
+    def listen(self) -> AbstractContextManager[Callable[[float], set[str]]]:
+        """Listen to writes; yield a function that waits some seconds for the names of written maps.
+
+        A name can be missing, and the empty name stands for all maps.
+        """
+
+    def alone(self) -> AbstractContextManager[bool]:
+        """Yield whether this service may do maintenance, which one service does at a time."""
 
 
 def skipped_ids(head: MapHead, given_out: int, count: int) -> int:

@@ -45,7 +45,11 @@ async def livez() -> HealthResponse:
     response_model_exclude_none=True,
 )
 async def readyz(state: StateOf) -> HealthResponse:
-    """Readiness: model and maps are loaded and maps can be stored; send no requests if not.
+    """Readiness: models and maps are loaded and can be served; send no requests if not.
+
+    Without a database, a service that cannot store maps is not ready either. With a database, a
+    service is ready as long as its maps are level with the database. It stays ready while the
+    database cannot be reached, because no other service could store maps then.
 
     `warnings` lists problems that need an operator although the service still works, such as an
     unreadable key file.
@@ -55,14 +59,15 @@ async def readyz(state: StateOf) -> HealthResponse:
             503, "not-ready", "The service is stopping. Send requests to another instance."
         )
     # In its own thread: a disk may hang, and no other request waits for it.
-    trouble = await anyio.to_thread.run_sync(state.engine.maps.trouble)
+    trouble = await anyio.to_thread.run_sync(state.engine.unready)
     if trouble is not None:
-        raise Problem(503, "not-ready", f"Maps cannot be written. {trouble}")
-    if state.keys.is_good():
-        return HealthResponse(status="ready")
-    if not state.keys.any_works():
-        raise Problem(503, "not-ready", f"{BAD_KEYS} No key works now.")
-    return HealthResponse(status="ready", warnings=[BAD_KEYS])
+        raise Problem(503, "not-ready", trouble)
+    warnings = state.engine.warnings()
+    if not state.keys.is_good():
+        if not state.keys.any_works():
+            raise Problem(503, "not-ready", f"{BAD_KEYS} No key works now.")
+        warnings = [BAD_KEYS, *warnings]
+    return HealthResponse(status="ready", warnings=warnings or None)
 
 
 @router.get("/metrics", summary="Read metrics for Prometheus", response_class=PlainTextResponse)

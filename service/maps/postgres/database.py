@@ -150,6 +150,12 @@ class PostgresDatabase:
             _configure(connection)
             yield connection, PostgresRows(connection, self._watchdog)
 
+    @contextmanager
+    def watching(self, connection: Connection, seconds: float) -> Iterator[None]:
+        """Wait in a block for this time at most, and a little longer."""
+        with self._watchdog.limit(connection, seconds + STATEMENT_SECONDS):
+            yield
+
     def transaction(self, work: Work[Result]) -> Result:
         """Run writes as one transaction, durable on return.
 

@@ -14,6 +14,7 @@ from service.maps.postgres.tables import (
     CHANNEL,
     CREATION_LOCK,
     LAYOUT,
+    MAINTENANCE_LOCK,
     PostgresLayout,
     extend,
     is_current,
@@ -22,6 +23,7 @@ from service.maps.sql.annotations import errors_in, read_annotations, write_anno
 from service.maps.sql.history import SqlHistory
 from service.maps.sql.operations import (
     append_commit,
+    check_mark,
     compact_map,
     create_map,
     delete_map,
@@ -41,12 +43,17 @@ from service.maps.store import (
     MapHead,
     Note,
     Owner,
+    SharedMap,
     StoreError,
     StoreSnapshot,
     commit_after,
 )
 
 logger = logging.getLogger("placecell")
+
+
+SHARED = HEAD.replace("digest FROM", "digest, annotated FROM")
+"""Columns of a head, and the number of writes of its annotations."""
 
 
 class PostgresStore:
@@ -170,18 +177,14 @@ class PostgresStore:
         with self._database.snapshot() as rows:
             return Owners(rows, row_of(rows, uid)).of(ids)
 
-    def free_ids(self, uid: str, used: Iterable[int]) -> MapHead:
-        """Forget the owners of unused ids; free ids begin after the used ones.
-
-        Args:
-            uid: uid of the map; KeyError if there is no such map.
-            used: ids in use, ascending.
-        """
+    def free_ids(self, uid: str, used: Iterable[int], mark: str | None = None) -> MapHead:
+        """Forget the owners of unused ids. Parameters are those of `MapStore`."""
         kept = list(used)
 
         def free(rows: Rows, again: bool) -> MapHead:
             del again  # a second run changes nothing more
             _locked(rows, uid)
+            check_mark(rows, uid, mark)
             return _told(rows, free_unused(rows, uid, kept))
 
         return self._database.transaction(free)
@@ -219,19 +222,62 @@ class PostgresStore:
 
         return self._database.transaction(shorten)
 
-    def delete(self, uid: str) -> None:
-        """Remove a map with all its versions; KeyError if there is no such map."""
+    def delete(self, uid: str, mark: str | None = None) -> None:
+        """Remove a map with all its versions; KeyError if there is no such map or version."""
 
         def remove(rows: Rows, again: bool) -> None:
             if not _locked(rows, uid):
                 if again:
                     return
                 raise KeyError(uid)
-            name = head_of(rows, uid).name
+            check_mark(rows, uid, mark)
+            # A row whose digest is wrong can be deleted too.
+            (name,) = rows.execute("SELECT name FROM maps WHERE uid = ?", (uid,)).fetchone()
             delete_map(rows, uid)
             rows.execute("SELECT pg_notify(?, ?)", (CHANNEL, name))
 
         self._database.transaction(remove)
+
+    def find(self, name: str) -> SharedMap | None:
+        """Return the newest state of a map; None if there is no such map."""
+        with self._database.snapshot() as rows:
+            found = rows.execute(f"{SHARED} WHERE name = ?", (name,)).fetchone()
+        return None if found is None else _shared(found)
+
+    def shared_maps(self) -> list[SharedMap]:
+        """Return the newest states of all maps, by name."""
+        with self._database.snapshot() as rows:
+            return [_shared(row) for row in rows.execute(f"{SHARED} ORDER BY name")]
+
+    def annotations_of(self, uid: str) -> list[Annotation]:
+        """Return the annotations of a map; none if there is no such map."""
+        with self._database.snapshot() as rows:
+            found, errors = read_annotations(rows, uid)
+        for error in errors:
+            logger.error("%s; it is not used", error)
+        return found.get(uid, [])
+
+    @contextmanager
+    def listen(self) -> Iterator[Callable[[float], set[str]]]:
+        """Listen to writes; yield a function that waits some seconds for the names of maps."""
+        with self._database.connected() as (connection, rows):
+            rows.execute(f"LISTEN {CHANNEL}")
+
+            def wait(seconds: float) -> set[str]:
+                with self._database.watching(connection, seconds):
+                    notices = connection.notifies(timeout=seconds, stop_after=1)
+                    return {notice.payload for notice in notices}
+
+            yield wait
+
+    @contextmanager
+    def alone(self) -> Iterator[bool]:
+        """Yield whether this service may do maintenance, which one service does at a time."""
+        with self._database.snapshot() as rows:
+            (is_held,) = rows.execute(
+                "SELECT pg_try_advisory_xact_lock(?)", (MAINTENANCE_LOCK,)
+            ).fetchone()
+            yield bool(is_held)
 
     @contextmanager
     def snapshot(self) -> Iterator[SqlSnapshot]:
@@ -286,6 +332,11 @@ class PostgresStore:
                 except StoreError as error:
                     found.append(str(error))
         return found
+
+
+def _shared(row: tuple[Any, ...]) -> SharedMap:
+    """Build the state of a map from a row of `SHARED`."""
+    return SharedMap(head_from(row[:-1]), row[-1])
 
 
 def _check_map(rows: Rows, uid: str) -> None:

@@ -20,6 +20,9 @@ CHANNEL = "placecell"
 CREATION_LOCK = 0x506C6C63
 """Advisory lock of the service that creates or migrates the tables."""
 
+MAINTENANCE_LOCK = CREATION_LOCK + 1
+"""Advisory lock of the service that compacts histories."""
+
 TABLES = f"""
 CREATE SCHEMA IF NOT EXISTS {SCHEMA};
 CREATE TABLE {SCHEMA}.version (

@@ -9,23 +9,24 @@ from service.maps.store import Annotation
 
 
 def read_annotations(
-    rows: Rows,
+    rows: Rows, uid: str | None = None
 ) -> tuple[dict[str, list[Annotation]], list[str]]:
-    """Return the annotations of all maps, by uid, and an error for each altered one."""
+    """Return the annotations of a map or of all, by uid, and an error for each altered one."""
     found: dict[str, list[Annotation]] = {}
     errors = []
     found_rows = rows.execute(
         "SELECT uid, maps.name, maps.map, kind, annotations.name, value, author, time, "
         "annotations.digest FROM annotations JOIN maps ON maps.map = annotations.map "
-        "ORDER BY uid, kind, annotations.name"
+        f"{'' if uid is None else 'WHERE uid = ? '}ORDER BY uid, kind, annotations.name",
+        () if uid is None else (uid,),
     )
-    for uid, of_map, row, *values, digest in found_rows:
+    for of, name, row, *values, digest in found_rows:
         annotation = Annotation(*values)
         if digest == digest_of(row, annotation):
-            found.setdefault(uid, []).append(annotation)
+            found.setdefault(of, []).append(annotation)
         else:
             errors.append(
-                f"map {of_map!r}: {annotation.kind} {annotation.name!r} was altered in the table "
+                f"map {name!r}: {annotation.kind} {annotation.name!r} was altered in the table "
                 "annotations"
             )
     return found, errors

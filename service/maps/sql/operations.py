@@ -138,6 +138,15 @@ def reserve_ids(
     return first
 
 
+def check_mark(rows: Rows, uid: str, mark: str | None) -> None:
+    """Raise a KeyError if the newest version of a map has another mark; None: any."""
+    if mark is None:
+        return
+    found = rows.execute("SELECT mark FROM maps WHERE uid = ?", (uid,)).fetchone()
+    if found is None or found[0] != mark:
+        raise KeyError(uid)
+
+
 def free_unused(rows: Rows, uid: str, used: Iterable[int]) -> MapHead:
     """Forget the owners of ids that are not in `used`, which ascends."""
     row, head = row_of(rows, uid), head_of(rows, uid)

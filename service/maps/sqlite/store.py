@@ -14,6 +14,7 @@ from service.maps.sql.annotations import errors_in, read_annotations, write_anno
 from service.maps.sql.history import SqlHistory
 from service.maps.sql.operations import (
     append_commit,
+    check_mark,
     compact_map,
     create_map,
     delete_map,
@@ -164,14 +165,10 @@ class SqliteMapStore:
         with self._database.snapshot() as connection:
             return Owners(connection, row_of(connection, uid)).of(ids)
 
-    def free_ids(self, uid: str, used: Iterable[int]) -> MapHead:
-        """Forget the owners of unused ids; free ids begin after the used ones.
-
-        Args:
-            uid: uid of the map; KeyError if there is no such map.
-            used: ids in use, ascending.
-        """
+    def free_ids(self, uid: str, used: Iterable[int], mark: str | None = None) -> MapHead:
+        """Forget the owners of unused ids. Parameters are those of `MapStore`."""
         with self._database.transaction() as rows:
+            check_mark(rows, uid, mark)
             after = free_unused(rows, uid, used)
         try:
             # Otherwise the next start would treat freed ids as given out.
@@ -207,9 +204,14 @@ class SqliteMapStore:
         """Drop the versions before one, whose file is given; KeyError if it is not kept."""
         return self._database.freeing(lambda rows: compact_map(rows, uid, sequence, file))
 
-    def delete(self, uid: str) -> None:
-        """Remove a map with all its versions; KeyError if there is no such map."""
-        self._database.freeing(lambda rows: delete_map(rows, uid))
+    def delete(self, uid: str, mark: str | None = None) -> None:
+        """Remove a map with all its versions; KeyError if there is no such map or version."""
+
+        def remove(rows: Rows) -> None:
+            check_mark(rows, uid, mark)
+            delete_map(rows, uid)
+
+        self._database.freeing(remove)
 
     @contextmanager
     def snapshot(self) -> Iterator[SqlSnapshot]:

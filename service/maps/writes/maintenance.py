@@ -6,7 +6,7 @@ A kill at any point loses nothing.
 
 import logging
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass
 from threading import Event, Thread
 
@@ -70,7 +70,9 @@ class Maintenance:
         bounds: MaintenanceThresholds = MaintenanceThresholds(),
         partial_uploads: PartialUploads | None = None,
         watch: Callable[[], None] = lambda: None,
+        alone: Callable[[], AbstractContextManager[bool]] = lambda: nullcontext(True),
     ) -> None:
+        self._alone = alone
         self._watch = watch
         self._maps = maps
         self._sync = sync
@@ -175,7 +177,15 @@ class Maintenance:
         return min(wanted, max(0, self._bounds.map_bytes - head.base_bytes) / 2)
 
     def _compact(self, stored: MapSnapshot, most: float) -> None:
-        """Drop old versions until half of the allowed bytes are left, so that it lasts a while."""
+        """Drop old versions until half of the allowed bytes are left, so that it lasts a while.
+
+        Of several services with one database, one does so.
+        """
+        with self._alone() as is_own:
+            if is_own:
+                self._compact_alone(stored, most)
+
+    def _compact_alone(self, stored: MapSnapshot, most: float) -> None:
         with history_of(self._maps.store, stored) as history:
             head = history.head
             left = most / 2

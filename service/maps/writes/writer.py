@@ -30,6 +30,7 @@ from service.maps.writes.deduplication import (
     deduplicate,
 )
 from service.maps.writes.id_rules import check_authors, check_new, check_only_new, check_own
+from service.maps.writes.newest import on_newest
 from service.maps.writes.validation import (
     FileKind,
     check_applies_to_any,
@@ -98,6 +99,7 @@ class MapWriter:
     principal: Principal
     conditions: Preconditions
 
+    @on_newest
     def put(self, name: str, data: bytes) -> WriteResult:
         """Create a map from a file, or replace its content if the request names its version."""
         with reading("map"):
@@ -113,6 +115,7 @@ class MapWriter:
             change = snapshot.layers.change_to(restored, snapshot.head.sequence)
             return self.commit(snapshot, change, "put", replaces=True)
 
+    @on_newest
     def edit(self, name: str, data: bytes, options: EditOptions = EditOptions()) -> WriteResult:
         """Add, replace and remove segments, all or none.
 
@@ -148,6 +151,7 @@ class MapWriter:
             self._check_edit(snapshot, change, refreshed, owners, options)
             return replace(self._store(snapshot, change, "edit", refreshed), repeats=repeats)
 
+    @on_newest
     def restore(self, name: str, sequence: int, dry_run: bool = False) -> WriteResult:
         """Write the content of an earlier version as a new version.
 
@@ -164,6 +168,7 @@ class MapWriter:
                 return WriteResult(snapshot, len(change.delta.changed), len(change.delta.removed))
             return self.commit(snapshot, change, "restore")
 
+    @on_newest
     def prune(self, name: str, unseen_since: float, dry_run: bool) -> WriteResult:
         """Remove segments that were last seen before a time.
 
@@ -181,6 +186,7 @@ class MapWriter:
             change = snapshot.layers.effect_of(Delta(snapshot.layers.take(NONE), removed))
             return self.commit(snapshot, change, "age")
 
+    @on_newest
     def delete(self, name: str) -> int:
         """Remove a map; return how many segments it had, 0 if it was damaged."""
         with self.maps.writing(name):
@@ -198,6 +204,7 @@ class MapWriter:
             self.maps.delete(name)
             return len(snapshot)
 
+    @on_newest
     def compact(self, name: str, keep: int) -> MapSnapshot:
         """Drop all but the last `keep` versions; `keep` is 1 or more."""
         self.principal.check_all()
@@ -208,6 +215,7 @@ class MapWriter:
         layers, _ = load_version(self.maps.store, snapshot, sequence)
         return self.maps.compact(snapshot.head, sequence, encode(layers.content()))
 
+    @on_newest
     def reserve(self, name: str, count: int, most: int = IDS) -> int:
         """Reserve `count` ids that no segment ever had and no other key holds; return the first.
 
@@ -234,6 +242,7 @@ class MapWriter:
         except OutOfIdsError as error:
             raise out_of_ids(name, error) from error
 
+    @on_newest
     def reset_ids(self, name: str) -> MapHead:
         """Free all ids that no kept version of the map has; for administrators."""
         self.principal.check_admin()

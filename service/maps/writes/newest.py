@@ -1,0 +1,44 @@
+"""Writes on the newest version of a map, also if other services write to it."""
+
+from collections.abc import Callable
+from functools import update_wrapper
+from typing import Concatenate, ParamSpec, Protocol, TypeVar
+
+from service.maps.repository import MapRepository, OutdatedError
+
+TRIES = 5
+"""Number of times that a write is tried which other services overtake."""
+
+Parameters = ParamSpec("Parameters")
+Result = TypeVar("Result")
+
+
+class _Writer(Protocol):
+    @property
+    def maps(self) -> MapRepository: ...
+
+
+Writer = TypeVar("Writer", bound=_Writer)
+
+
+def on_newest(
+    write: Callable[Concatenate[Writer, str, Parameters], Result],
+) -> Callable[Concatenate[Writer, str, Parameters], Result]:
+    """Load the newest version of the map before a write, and repeat a write that was overtaken.
+
+    Each try checks rights and preconditions against the version that it follows.
+    """
+
+    def written(
+        self: Writer, name: str, /, *args: Parameters.args, **kwargs: Parameters.kwargs
+    ) -> Result:
+        for _ in range(TRIES - 1):
+            self.maps.catch_up(name)
+            try:
+                return write(self, name, *args, **kwargs)
+            except OutdatedError:
+                continue
+        self.maps.catch_up(name)
+        return write(self, name, *args, **kwargs)
+
+    return update_wrapper(written, write)
