@@ -14,10 +14,10 @@ from tests.service.service_builders import cloud, map_of, random_codes, request_
 MOST = 15
 """Largest number of files that a request for recognition passes."""
 
-MOST_OF_UPLOAD = 13
+MOST_OF_UPLOAD = 14
 """Largest number of files that an upload of a new map passes."""
 
-MOST_OF_REPLACEMENT = 16
+MOST_OF_REPLACEMENT = 17
 """Largest number of files that an upload passes that replaces a map: it is compared as well."""
 
 
