@@ -85,6 +85,7 @@ MAP_ROUTES = (
     segments,
     versions,
     align,
+    optimize,
     anchors,
 )
 """Modules whose routes read or write maps, which other services may have written."""
