@@ -29,7 +29,7 @@ from service.api.routes import (
     uploads,
     versions,
 )
-from service.api.routes.annotations import anchors
+from service.api.routes.annotations import anchors, mirrors
 from service.api.routes.clouds import exports, scans
 from service.api.routes.live import events, robots
 from service.api.state import State, open_state
@@ -67,6 +67,7 @@ ROUTES = (
     align,
     optimize,
     anchors,
+    mirrors,
     robots,
     events,
     models,

@@ -37,7 +37,7 @@ from placecell.descriptors.site_calibration import CalibrationState, SiteCalibra
 from placecell.localization import LocalizationParameters
 from placecell.map_alignment import AlignmentParameters
 from placecell.pose_graph import PoseGraphParameters
-from service.annotations.annotations import Annotations
+from service.annotations.annotations import Annotations, MirrorMark
 from service.annotations.writer import AnnotationWriter
 from service.core.auth import ANYONE, Principal
 from service.core.cost import check_cost, cost_of_aligning, cost_of_search
@@ -484,6 +484,13 @@ class Engine:
         The caller checks that the key may write the map (`Principal.check_write`).
         """
         return MapWriter(self.maps, self.models, principal, conditions)
+
+    def mirror(self, name: str) -> MirrorMark | None:
+        """Return the mark of a map that is a copy of another service's; None for other maps."""
+        if name in self.maps.damaged():
+            return None
+        snapshot = self.maps.find(name)
+        return None if snapshot is None else self.annotations.of(snapshot).mirror
 
     def annotation_writer(
         self, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS

@@ -9,6 +9,7 @@ from cli.maps.delete import delete
 from cli.maps.diff import diff
 from cli.maps.list import list_maps
 from cli.maps.merge import merge
+from cli.maps.mirror import mirror
 from cli.maps.optimize import optimize
 from cli.maps.prune import prune
 from cli.maps.pull import pull
@@ -42,6 +43,7 @@ maps.add_typer(anchor, name="anchor", rich_help_panel=WRITE)
 maps.command(rich_help_panel=COMBINE)(align)
 maps.command(rich_help_panel=COMBINE)(merge)
 maps.command(rich_help_panel=COMBINE)(optimize)
+maps.command(rich_help_panel=COMBINE)(mirror)
 maps.command(rich_help_panel=MAINTAIN)(verify)
 maps.command(rich_help_panel=MAINTAIN)(prune)
 maps.command(rich_help_panel=MAINTAIN)(compact)

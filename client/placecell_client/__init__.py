@@ -22,7 +22,13 @@ from placecell_client.maps.map_file import CompactMap, MapFileError, decode, enc
 from placecell_client.maps.move import moved, originated
 from placecell_client.replica import ChangesPage, MapCopy
 from placecell_client.results.alignment import MapAlignment, MapHypothesis, MapPairs, Overlap
-from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
+from placecell_client.results.anchors import (
+    AnchorPose,
+    Coverage,
+    MapAnchor,
+    MapAnchorFit,
+    MapMirror,
+)
 from placecell_client.results.core import (
     Candidate,
     Description,
@@ -85,6 +91,7 @@ __all__ = [
     "MapFileError",
     "MapHypothesis",
     "MapLoop",
+    "MapMirror",
     "MapPairs",
     "MapSummary",
     "MapVersion",

@@ -32,7 +32,13 @@ from placecell_client.maps.delta_file import Delta
 from placecell_client.maps.map_file import CompactMap
 from placecell_client.replica import PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.results.alignment import MapAlignment
-from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
+from placecell_client.results.anchors import (
+    AnchorPose,
+    Coverage,
+    MapAnchor,
+    MapAnchorFit,
+    MapMirror,
+)
 from placecell_client.results.core import (
     Description,
     Info,
@@ -80,10 +86,13 @@ class AsyncClient(BaseClient):
         jitter: Callable[[], float] = random.random,
         sleep: Callable[[float], Awaitable[None]] = asyncio.sleep,
         clock: Callable[[], float] = time.monotonic,
+        mirrors: str | None = None,
     ) -> None:
         super().__init__(base_url, encoding, compress, timeout, retries, jitter, clock)
         self._sleep = sleep
-        self._http = httpx.AsyncClient(transport=transport, **http_options(self._base_url, key))
+        self._http = httpx.AsyncClient(
+            transport=transport, **http_options(self._base_url, key, mirrors)
+        )
 
     async def __aenter__(self: AsyncClientT) -> AsyncClientT:
         return self
@@ -425,6 +434,18 @@ class AsyncClient(BaseClient):
     async def delete_named_anchor(self, name: str, anchor: str) -> None:
         """See `Client.delete_named_anchor`."""
         await self._send(self._calls.delete_named_anchor(name, anchor))
+
+    async def mirror(self, name: str) -> MapMirror | None:
+        """See `Client.mirror`."""
+        return await self._send(self._calls.mirror(name))
+
+    async def set_mirror(self, name: str, source: str, etag: str = "") -> MapMirror:
+        """See `Client.set_mirror`."""
+        return await self._send(self._calls.set_mirror(name, source, etag))
+
+    async def delete_mirror(self, name: str) -> None:
+        """See `Client.delete_mirror`."""
+        await self._send(self._calls.delete_mirror(name))
 
     async def report_pose(
         self,

@@ -30,7 +30,13 @@ from placecell_client.maps.delta_file import Delta
 from placecell_client.maps.map_file import CompactMap
 from placecell_client.replica import PAGE_SEGMENTS, ChangesPage, MapCopy
 from placecell_client.results.alignment import MapAlignment
-from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
+from placecell_client.results.anchors import (
+    AnchorPose,
+    Coverage,
+    MapAnchor,
+    MapAnchorFit,
+    MapMirror,
+)
 from placecell_client.results.core import (
     Description,
     Info,
@@ -88,6 +94,7 @@ class Client(BaseClient):
         jitter: Function that returns a uniform random number from 0 to 1, for the waits.
         sleep: Function that waits a number of seconds.
         clock: Function that returns monotonic seconds.
+        mirrors: Source of the mirrors that this client writes.
 
     Raises:
         ValueError: The address, the encoding, the timeout or the key is invalid.
@@ -106,10 +113,11 @@ class Client(BaseClient):
         jitter: Callable[[], float] = random.random,
         sleep: Callable[[float], None] = time.sleep,
         clock: Callable[[], float] = time.monotonic,
+        mirrors: str | None = None,
     ) -> None:
         super().__init__(base_url, encoding, compress, timeout, retries, jitter, clock)
         self._sleep = sleep
-        self._http = httpx.Client(transport=transport, **http_options(self._base_url, key))
+        self._http = httpx.Client(transport=transport, **http_options(self._base_url, key, mirrors))
 
     def __enter__(self: ClientT) -> ClientT:
         return self
@@ -780,6 +788,26 @@ class Client(BaseClient):
     def delete_named_anchor(self, name: str, anchor: str) -> None:
         """Remove a named pose of a map."""
         self._send(self._calls.delete_named_anchor(name, anchor))
+
+    def mirror(self, name: str) -> MapMirror | None:
+        """Return the source of a map that is a mirror; None for all other maps."""
+        return self._send(self._calls.mirror(name))
+
+    def set_mirror(self, name: str, source: str, etag: str = "") -> MapMirror:
+        """Mark an empty map, or a mirror, as a read-only copy of another service's map.
+
+        Only a client with `mirrors=source` can write to it then.
+
+        Args:
+            name: Name of the map.
+            source: URL of the other service's map.
+            etag: ETag of the version there that was copied last; empty before the first copy.
+        """
+        return self._send(self._calls.set_mirror(name, source, etag))
+
+    def delete_mirror(self, name: str) -> None:
+        """Make a mirror a map of this service, which takes writes."""
+        self._send(self._calls.delete_mirror(name))
 
     def report_pose(
         self,

@@ -18,7 +18,7 @@ from service.maps.repository import OutdatedError
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import Annotation, MapStore
 
-TAG, GEO, NAMED = "tag", "anchor", "pose"
+TAG, GEO, NAMED, MIRROR = "tag", "anchor", "pose", "mirror"
 """Kinds of annotations."""
 
 MAP_TAGS = 32
@@ -61,6 +61,23 @@ class NamedAnchor:
     time: float
 
 
+@dataclass(frozen=True, slots=True)
+class MirrorMark:
+    """Mark of a map that is a read-only copy of another service's map.
+
+    Attributes:
+        source: URL of that map.
+        etag: ETag of the version that was copied last; empty before the first copy.
+        author: name of the key that copies it.
+        time: time of the last copy, Unix seconds.
+    """
+
+    source: str
+    etag: str
+    author: str
+    time: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class MapAnnotations:
     """Annotations of one map.
@@ -69,11 +86,13 @@ class MapAnnotations:
         tags: tags, sorted.
         geo: WGS 84 anchor; None if the map has none.
         named: named anchors by name, sorted.
+        mirror: mark of a copy of another service's map; None for a map of this service.
     """
 
     tags: tuple[str, ...] = ()
     geo: StoredGeoAnchor | None = None
     named: Mapping[str, NamedAnchor] = field(default_factory=dict)
+    mirror: MirrorMark | None = None
 
     def __len__(self) -> int:
         return len(self.tags) + (self.geo is not None) + len(self.named)
@@ -195,9 +214,14 @@ def pose_value(pose: Pose, frame: str) -> dict[str, Any]:
     }
 
 
+def mirror_value(source: str, etag: str) -> dict[str, Any]:
+    """Return the mark of a mirror as the value of an annotation."""
+    return {"source": source, "etag": etag}
+
+
 def _parsed(rows: Sequence[Annotation]) -> MapAnnotations:
     tags = sorted(each.name for each in rows if each.kind == TAG)
-    geo = None
+    geo = mirror = None
     named = {}
     for each in sorted(rows, key=lambda row: row.name):
         value = json.loads(each.value)
@@ -210,7 +234,9 @@ def _parsed(rows: Sequence[Annotation]) -> MapAnnotations:
                 Rotation.from_quat(value["orientation"]).as_matrix(), np.array(value["position"])
             )
             named[each.name] = NamedAnchor(each.name, pose, value["frame"], each.author, each.time)
-    return MapAnnotations(tuple(tags), geo, named)
+        elif each.kind == MIRROR:
+            mirror = MirrorMark(value["source"], value["etag"], each.author, each.time)
+    return MapAnnotations(tuple(tags), geo, named, mirror)
 
 
 def _rows_of(annotations: MapAnnotations) -> list[Annotation]:
@@ -222,4 +248,7 @@ def _rows_of(annotations: MapAnnotations) -> list[Annotation]:
     for each in annotations.named.values():
         value = json.dumps(pose_value(each.pose, each.frame))
         rows.append(Annotation(NAMED, each.name, value, each.author, each.time))
+    if (mirror := annotations.mirror) is not None:
+        value = json.dumps(mirror_value(mirror.source, mirror.etag))
+        rows.append(Annotation(MIRROR, "", value, mirror.author, mirror.time))
     return rows

@@ -7,13 +7,16 @@ from placecell.core.geodesy import GeoAnchor
 from placecell.localization import Pose
 from service.annotations.annotations import (
     GEO,
+    MIRROR,
     NAMED,
     TAG,
     Annotations,
     MapAnnotations,
+    MirrorMark,
     NamedAnchor,
     StoredGeoAnchor,
     geo_value,
+    mirror_value,
     pose_value,
 )
 from service.core.auth import Principal
@@ -106,6 +109,39 @@ class AnnotationWriter:
                 raise unknown_anchor(name, anchor)
             self._check_author(before)
             self.annotations.write(snapshot, self.principal.name, [], [(NAMED, anchor)])
+
+    def set_mirror(self, name: str, source: str, etag: str) -> MirrorMark:
+        """Mark a map as a copy of another service's map.
+
+        Raises:
+            Problem: 409 if the map has segments and is no copy of this source.
+        """
+        self.principal.check_all()
+        with self.maps.writing(name):
+            snapshot = self._checked(name)
+            before = self.annotations.of(snapshot).mirror
+            if before is None and len(snapshot):
+                raise Problem(
+                    409,
+                    "not-a-mirror",
+                    f"Map {name!r:.80} has {len(snapshot):,} segments and is no mirror. Mirror "
+                    "into an empty map, or a new one.",
+                )
+            value = mirror_value(source, etag)
+            after = self.annotations.write(
+                snapshot, self.principal.name, [(MIRROR, "", value)]
+            ).mirror
+            assert after is not None  # it was written
+            return after
+
+    def remove_mirror(self, name: str) -> None:
+        """Make a mirror a map of this service, which takes writes; 404 if it is none."""
+        self.principal.check_all()
+        with self.maps.writing(name):
+            snapshot = self._checked(name)
+            if self.annotations.of(snapshot).mirror is None:
+                raise Problem(404, "not-a-mirror", f"Map {name!r:.80} is no mirror.")
+            self.annotations.write(snapshot, self.principal.name, [], [(MIRROR, "")])
 
     def _checked(self, name: str) -> MapSnapshot:
         snapshot = self.maps.get(name)

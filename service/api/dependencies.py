@@ -17,8 +17,12 @@ from service.api.path_parameters import Name
 from service.api.state import State
 from service.core.auth import Principal
 from service.core.preconditions import Preconditions
+from service.core.problems import Problem
 from service.core.timing import Timing
 from service.maps.writes.writer import MapWriter, WriteResult
+
+MIRROR_HEADER = "Placecell-Mirror"
+"""Header with the source of the mirrors that a client writes."""
 
 Result = TypeVar("Result")
 Parameters = ParamSpec("Parameters")
@@ -137,16 +141,32 @@ class MapWrite:
         self, lane: Lane, media_types: Collection[str], body_bytes: int | None = None
     ) -> AsyncIterator[bytes]:
         """Check the key's scope, enter a lane and receive the body; see `Lane.admit`."""
-        self.principal.check_write(self.name)
+        self.check_writable()
         async with lane.admit(self.request, media_types, self.timing, body_bytes) as body:
             yield body.content
 
     @asynccontextmanager
     async def enter(self, lane: Lane) -> AsyncIterator[None]:
         """Check the key's scope and enter a lane, for a request without a body."""
-        self.principal.check_write(self.name)
+        self.check_writable()
         async with lane.enter(self.request):
             yield
+
+    def check_writable(self) -> None:
+        """Check the key's scope, and that a mirror is written by the program that copies it only.
+
+        Raises:
+            Problem: 403 if the key may not write the map, 409 if it is a mirror.
+        """
+        self.principal.check_write(self.name)
+        mirror = self.state.engine.mirror(self.name)
+        if mirror is not None and self.request.headers.get(MIRROR_HEADER) != mirror.source:
+            raise Problem(
+                409,
+                "mirrored-map",
+                f"Map {self.name!r:.80} is a read-only mirror of {mirror.source}. Write to that "
+                f"map, or end the mirror (DELETE /maps/{self.name}/mirror).",
+            )
 
     async def run(
         self,

@@ -7,9 +7,9 @@ from scipy.spatial.transform import Rotation
 
 from placecell.descriptors.site_calibration import SiteCalibration
 from placecell.localization import Pose
-from service.annotations.annotations import StoredGeoAnchor
+from service.annotations.annotations import MapAnnotations, MirrorMark, StoredGeoAnchor
 from service.api.schemas.anchors import GeoAnchorOut
-from service.api.schemas.maps import MapDetailOut, MapOut, VersionOut, WrittenOut
+from service.api.schemas.maps import MapDetailOut, MapOut, MirrorOut, VersionOut, WrittenOut
 from service.core.auth import Principal
 from service.core.problems import title_of, type_of
 from service.inference.describer import SegmentError
@@ -59,18 +59,24 @@ def detail_of(
     snapshot: MapSnapshot,
     principal: Principal,
     site: SiteCalibration | None,
-    anchor: StoredGeoAnchor | None,
-    tags: Sequence[str],
+    annotations: MapAnnotations,
 ) -> MapDetailOut:
     """Return the summary of a map with its calibration and anchor; call it in a thread."""
-    summary = summary_of(snapshot, principal, tags).model_dump()
+    summary = summary_of(snapshot, principal, annotations.tags).model_dump()
+    anchor, mirror = annotations.geo, annotations.mirror
     return MapDetailOut.model_validate(
         summary
         | {
             "calibration": None if site is None else site.as_dict(),
             "anchor": None if anchor is None else geo_anchor_of(snapshot, anchor, principal),
+            "mirror": None if mirror is None else mirror_of(mirror),
         }
     )
+
+
+def mirror_of(mark: MirrorMark) -> MirrorOut:
+    """Return the mark of a mirror."""
+    return MirrorOut(source=mark.source, etag=mark.etag, time=mark.time)
 
 
 def outcome_of(written: WriteResult) -> WrittenOut:

@@ -40,6 +40,7 @@ OTHER_NAMES = {
     FILE_VARIABLE: "settings file",
     PREFIX + "URL": "'placecell maps': address of the service",
     PREFIX + "KEY": "'placecell maps': key to send",
+    PREFIX + "REMOTE_KEY": "'placecell maps mirror': key to send to the remote service",
     PREFIX + "DEBUG": "'placecell': stack traces of unexpected errors",
     PREFIX + "DRIVES": "tests: folder of recorded drives",
     "PLACECELL_CACHE": "`placecell`: folder that keeps trajectories of odometry. (default: "

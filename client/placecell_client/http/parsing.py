@@ -18,7 +18,13 @@ from placecell_client.maps import delta_file, map_file
 from placecell_client.maps.delta_file import Delta, decode_delta
 from placecell_client.replica import ChangesPage
 from placecell_client.results.alignment import MapAlignment, alignment_of
-from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
+from placecell_client.results.anchors import (
+    AnchorPose,
+    Coverage,
+    MapAnchor,
+    MapAnchorFit,
+    MapMirror,
+)
 from placecell_client.results.core import (
     Candidate,
     Description,
@@ -255,6 +261,17 @@ def merge(answer: HttpResponse) -> Merge:
 def tags(answer: HttpResponse) -> tuple[str, ...]:
     """Read the response of `GET` and `PUT /maps/{map}/tags`."""
     return tuple(_content(answer)["tags"])
+
+
+def mirror(answer: HttpResponse) -> MapMirror | None:
+    """Read the mark of a mirror in the response of `GET /maps/{map}`; older services have none."""
+    found = _content(answer).get("mirror")
+    return None if found is None else MapMirror.of(found)
+
+
+def new_mirror(answer: HttpResponse) -> MapMirror:
+    """Read the response of `PUT /maps/{map}/mirror`."""
+    return MapMirror.of(_content(answer))
 
 
 def anchor(answer: HttpResponse) -> MapAnchor:

@@ -29,7 +29,13 @@ from placecell_client.maps.delta_file import Delta, encode_delta
 from placecell_client.maps.map_file import CompactMap, decode, encode
 from placecell_client.replica import ChangesPage
 from placecell_client.results.alignment import MapAlignment
-from placecell_client.results.anchors import AnchorPose, Coverage, MapAnchor, MapAnchorFit
+from placecell_client.results.anchors import (
+    AnchorPose,
+    Coverage,
+    MapAnchor,
+    MapAnchorFit,
+    MapMirror,
+)
 from placecell_client.results.core import (
     Description,
     Info,
@@ -435,6 +441,20 @@ class Calls:
     def set_tags(self, name: str, tags: Sequence[str]) -> Call[tuple[str, ...]]:
         """Build `PUT /maps/{map}/tags`."""
         return self._json("PUT", _path(name, "/tags"), {"tags": list(tags)}, parsing.tags)
+
+    def mirror(self, name: str) -> Call[MapMirror | None]:
+        """Build `GET /maps/{map}` as JSON."""
+        headers = {"Accept": MEDIA_TYPES["json"]}
+        return Call("GET", _path(name), parsing.mirror, headers=headers)
+
+    def set_mirror(self, name: str, source: str, etag: str) -> Call[MapMirror]:
+        """Build `PUT /maps/{map}/mirror`."""
+        body = {"source": source, "etag": etag}
+        return self._json("PUT", _path(name, "/mirror"), body, parsing.new_mirror)
+
+    def delete_mirror(self, name: str) -> Call[None]:
+        """Build `DELETE /maps/{map}/mirror`."""
+        return Call("DELETE", _path(name, "/mirror"), parsing.gone)
 
     def anchor(self, name: str) -> Call[MapAnchor]:
         """Build `GET /maps/{map}/anchor`."""

@@ -49,7 +49,9 @@ class BaseClient:
         return Attempts(call, self._policy)
 
 
-def http_options(base_url: httpx.URL, key: str | None) -> dict[str, Any]:
+def http_options(
+    base_url: httpx.URL, key: str | None, mirrors: str | None = None
+) -> dict[str, Any]:
     """Return the arguments of httpx's clients; only their headers hold the key, hidden in repr.
 
     Raises:
@@ -61,11 +63,12 @@ def http_options(base_url: httpx.URL, key: str | None) -> dict[str, Any]:
         host = f"[{base_url.host}]" if ":" in base_url.host else base_url.host
         # A proxy cannot reach the loopback interface of this machine.
         options["mounts"] = {f"all://{host}": None}
+    headers = {} if mirrors is None else {"Placecell-Mirror": mirrors}
     if key is None:
-        return options
+        return options | {"headers": headers} if headers else options
     # Quotes and backslashes are refused: escaped in an error page, the key could not be found.
     if not re.fullmatch(r"[!#-\[\]-~]+", key):
         raise ValueError(
             'Invalid key: expected one or more visible ASCII characters other than " and \\.'
         )
-    return options | {"headers": {"Authorization": f"Bearer {key}"}}
+    return options | {"headers": headers | {"Authorization": f"Bearer {key}"}}

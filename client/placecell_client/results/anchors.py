@@ -8,6 +8,26 @@ from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, slots=True)
+class MapMirror:
+    """Source of a map that is a read-only copy of another service's map.
+
+    Attributes:
+        source: URL of that map.
+        etag: ETag of the version there that was copied last; empty before the first copy.
+        time: Time of the last copy, Unix seconds.
+    """
+
+    source: str
+    etag: str
+    time: float
+
+    @classmethod
+    def of(cls, content: dict[str, Any]) -> "MapMirror":
+        """Build from the service's JSON; unknown fields are ignored."""
+        return cls(**{name: content[name] for name in cls.__slots__})
+
+
+@dataclass(frozen=True, slots=True)
 class MapAnchor:
     """Place of a map on the Earth (WGS 84).
 

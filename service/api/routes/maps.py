@@ -177,8 +177,7 @@ def _detail(state: State, principal: Principal, snapshot: MapSnapshot) -> bytes:
             snapshot,
             principal,
             site,
-            state.engine.annotations.of(snapshot).geo,
-            state.engine.annotations.tags(snapshot),
+            state.engine.annotations.of(snapshot),
         ),
         JSON,
     )

@@ -4,6 +4,7 @@ from pydantic import BaseModel, Field
 
 from placecell.descriptors.site_calibration import CalibrationState
 from service.api.schemas.anchors import GeoAnchorOut
+from service.api.schemas.recognition import Request
 
 
 class MapOut(BaseModel):
@@ -61,6 +62,29 @@ class CalibrationOut(BaseModel):
     )
 
 
+class MirrorOut(BaseModel):
+    """Mark of a map that is a read-only copy of another service's map."""
+
+    source: str = Field(description="URL of the map that it is a copy of.")
+    etag: str = Field(description="Entity tag of the version there that was copied last.")
+    time: float = Field(description="Time of the last copy, Unix seconds.")
+
+
+class MirrorIn(Request):
+    """Mark of a map that is a read-only copy of another service's map."""
+
+    source: str = Field(
+        pattern=r"^https?://[^\s@]{1,1000}$",
+        description="URL of the map that it is a copy of, without user or password.",
+    )
+    etag: str = Field(
+        default="",
+        pattern=r"^([0-9a-f]{16}-[0-9]{1,16})?$",
+        description="Entity tag of the version there that was copied last, without quotes; empty "
+        "before the first copy.",
+    )
+
+
 class MapDetailOut(MapOut):
     """Stored map, with the state of its calibration and its place on the Earth."""
 
@@ -70,6 +94,10 @@ class MapDetailOut(MapOut):
     )
     anchor: GeoAnchorOut | None = Field(
         description="WGS 84 anchor, as `GET /maps/{map}/anchor` returns it. Null if there is none."
+    )
+    mirror: MirrorOut | None = Field(
+        description="Source of a map that is a read-only copy of another service's map. Null for "
+        "all other maps."
     )
 
 
