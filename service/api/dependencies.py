@@ -11,6 +11,7 @@ import anyio.to_thread
 from fastapi import Depends, Header, Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
+from service.annotations.annotations import MirrorMark
 from service.api.admission.admission import Lane, admitted
 from service.api.audit import record, record_write
 from service.api.path_parameters import Name
@@ -127,6 +128,7 @@ class MapWrite:
         principal: principal of the request.
         writer: writes under the principal's scope and the request's preconditions.
         timing: stopwatch of the request.
+        mirror: mark of a map that is a copy of another service's; None for other maps.
     """
 
     name: str
@@ -135,6 +137,7 @@ class MapWrite:
     principal: Principal
     writer: MapWriter
     timing: Timing
+    mirror: MirrorMark | None
 
     @asynccontextmanager
     async def receive(
@@ -159,7 +162,7 @@ class MapWrite:
             Problem: 403 if the key may not write the map, 409 if it is a mirror.
         """
         self.principal.check_write(self.name)
-        mirror = self.state.engine.mirror(self.name)
+        mirror = self.mirror
         if mirror is not None and self.request.headers.get(MIRROR_HEADER) != mirror.source:
             raise Problem(
                 409,
@@ -212,14 +215,15 @@ async def map_write_of(
 ) -> MapWrite:
     """Return the write request to the map in the path."""
     writer = state.engine.writer(principal, conditions)
-    return MapWrite(name, request, state, principal, writer, timing)
+    return MapWrite(name, request, state, principal, writer, timing, state.engine.mirror(name))
 
 
 async def upload_write_of(
     name: Name, request: Request, state: StateOf, principal: PrincipalOf, timing: TimingOf
 ) -> MapWrite:
     """Return the write request to an incomplete upload, which has no version and no conditions."""
-    return MapWrite(name, request, state, principal, state.engine.writer(principal), timing)
+    writer, mirror = state.engine.writer(principal), state.engine.mirror(name)
+    return MapWrite(name, request, state, principal, writer, timing, mirror)
 
 
 MapWriteOf = Annotated[MapWrite, Depends(map_write_of)]

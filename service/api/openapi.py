@@ -20,6 +20,7 @@ from service.api.schemas.anchors import (
     TagsIn,
 )
 from service.api.schemas.localization import LocalizeRequest
+from service.api.schemas.maps import MirrorIn
 from service.api.schemas.msgpack import (
     PackedDescribeRequest,
     PackedDescribeResponse,
@@ -39,6 +40,7 @@ _SCHEMAS: tuple[type[BaseModel], ...] = (
     LocalizeRequest,
     MatchRequest,
     MergeRequest,
+    MirrorIn,
     NamedAnchorIn,
     PackedDescribeRequest,
     PackedDescribeResponse,

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from placecell_client import Client, CompactMap, Delta, encode, encode_delta
+from placecell_client.maps.edit import take
 
 from placecell.core.geodesy import GeoAnchor, to_geodetic
 from tests.service.clouds.scan_files import files_of, yard_scan
@@ -87,6 +88,7 @@ def prepare(
     client.put_map("yard", data)
     client.put_map("hall", hall)
     client.put_map("shed", hall)
+    client.put_map("far-yard", take(yard, np.zeros(0, np.int64)))
 
 
 def run(example: Example, address: str, folder: Path) -> bytes:
