@@ -15,6 +15,7 @@ from placecell_client.http.requests import Call
 from placecell_client.http.response import HttpResponse
 from placecell_client.http.retry import RETRIED, Retries, may_be_done
 from placecell_client.maps.map_file import MapFileError
+from placecell_client.seen import SeenVersions
 
 T = TypeVar("T")
 
@@ -89,11 +90,12 @@ class Attempts(Generic[T]):
         request_id: Id of the call, sent as `X-Request-Id` in every attempt.
     """
 
-    def __init__(self, call: Call[T], policy: Policy) -> None:
+    def __init__(self, call: Call[T], policy: Policy, seen: SeenVersions) -> None:
         if call.timeout is not None:
             policy = policy.lasting(call.timeout)
         self._call = call
         self._policy = policy
+        self._seen = seen
         self._deadline = Deadline(policy.timeout, policy.clock)
         self.request_id = uuid.uuid4().hex
         self._trace = trace_headers()
@@ -112,7 +114,7 @@ class Attempts(Generic[T]):
         if self._last is not None and left <= 0:
             raise self._last
         seconds = min(left, self._policy.retries.longest_attempt or left)
-        headers = self._call.headers | self._trace
+        headers = self._call.headers | self._trace | self._seen.headers()
         headers |= {
             "X-Request-Id": self.request_id,
             "Placecell-Timeout": f"{seconds:.3f}",
@@ -137,6 +139,7 @@ class Attempts(Generic[T]):
         gone = answer.status == 404 and self._call.method == "DELETE" and self._may_be_done
         if not answer.ok and not gone:
             raise ServiceError.of(answer)
+        self._seen.note(self._call.method, self._call.path, answer.headers)
         try:
             return self._call.read(answer)
         except MapFileError:

@@ -11,6 +11,7 @@ from placecell_client.http.connection_errors import checked_url, explained, is_l
 from placecell_client.http.encoding import MEDIA_TYPES, Encoding
 from placecell_client.http.requests import Call, Calls
 from placecell_client.http.retry import Retries
+from placecell_client.seen import SeenVersions
 
 T = TypeVar("T")
 
@@ -35,6 +36,7 @@ class BaseClient:
         self._base_url = checked_url(base_url)
         self._calls = Calls(encoding, compress)
         self._policy = Policy(timeout, retries, jitter, clock)
+        self._seen = SeenVersions()
 
     def __repr__(self) -> str:
         # httpx hides a password in the URL.
@@ -46,7 +48,7 @@ class BaseClient:
             error.args = (f"{explained(error, self._base_url)} (request {request_id})",)
 
     def _attempts(self, call: Call[T]) -> Attempts[T]:
-        return Attempts(call, self._policy)
+        return Attempts(call, self._policy, self._seen)
 
 
 def http_options(
