@@ -41,7 +41,9 @@ from tests.client.map_builders import random_map
 
 CLOUD = np.arange(12, dtype=np.float64).reshape(4, 3)
 MAP = random_map()
-OWN = {"x-request-id", "placecell-timeout"}
+OWN = {"x-request-id", "placecell-timeout", "placecell-seen"}
+"""Headers that differ: `Blocking` makes a client for each call, which has seen nothing."""
+
 PATIENCE = 10
 """Silence of the server, seconds; no test waits for its end."""
 
