@@ -106,28 +106,31 @@ def robot_maps(
         for number in range(case.robots)
     }
     for number, route in enumerate(routes):
-        missing = [
-            each for each in percents if not files[each, number].with_suffix(".npz").exists()
-        ]
+        missing = [each for each in percents if not _path(files[each, number], ".npz").exists()]
         if missing:
             cache.mkdir(parents=True, exist_ok=True)
             found = _drive(city, route, lidar, case.seed * 100 + number, number, missing, tell)
             for percent, (content, poses, meters) in found.items():
                 file = files[percent, number]
-                file.with_suffix(".map").write_bytes(encode(content))
-                part = file.with_suffix(".part.npz")
+                _path(file, ".map").write_bytes(encode(content))
+                part = _path(file, ".part.npz")
                 np.savez(part, times=content.frame_times, poses=poses, meters=meters)
-                part.rename(file.with_suffix(".npz"))
+                part.rename(_path(file, ".npz"))
     return {
         percent: [_kept(files[percent, number]) for number in range(case.robots)]
         for percent in percents
     }
 
 
+def _path(file: Path, ending: str) -> Path:
+    """Return a file's path with an ending; its name may have dots."""
+    return file.with_name(file.name + ending)
+
+
 def _kept(file: Path) -> TrueMap:
-    with np.load(file.with_suffix(".npz")) as kept:
+    with np.load(_path(file, ".npz")) as kept:
         poses, meters = kept["poses"], float(kept["meters"])
-    return TrueMap(decode(file.with_suffix(".map").read_bytes()), poses, meters)
+    return TrueMap(decode(_path(file, ".map").read_bytes()), poses, meters)
 
 
 def _drive(

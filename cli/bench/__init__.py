@@ -6,6 +6,7 @@ from cli.bench.align import align
 from cli.bench.attack import attack
 from cli.bench.crash import crash
 from cli.bench.describe import describe
+from cli.bench.drift import drift
 from cli.bench.fleet import fleet
 from cli.bench.fleet_crash import fleet_crash
 from cli.bench.floors import floors
@@ -42,6 +43,7 @@ bench.command()(takes_drives(search))
 bench.command()(takes_drives(localize))
 bench.command()(takes_drives(floors))
 bench.command()(live)
+bench.command()(drift)
 bench.command()(robot_faults)
 bench.command()(pose_tables)
 bench.command()(sensors)

@@ -1,0 +1,200 @@
+"""Drift: trajectory errors of maps before and after the optimization of their pose graph."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from placecell_client import CompactMap
+from placecell_client.maps.union import union
+
+from benchmarks.drift.town_maps import DriftCase, TrueMap, robot_maps
+from evaluation.machine import machine
+from evaluation.trajectory import absolute_error
+from placecell.core.types import Float64, Int64
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
+from placecell.pose_graph import BentMap, GraphMap
+from placecell.pose_graph.bend import PARAMETERS
+from placecell.pose_graph.frames import headings, relative, wrapped
+from service.engine import Engine
+from service.merging.bending import bend_content, graph_of
+
+WRONG = (1.0, 3.0)
+"""Error from which a loop is wrong, meters and degrees: that of a right pose of a localization."""
+
+DOUBLE = 0.3
+"""Distance within which two views of one thing are no double wall, meters."""
+
+
+@dataclass(frozen=True, slots=True)
+class DriftPlan:
+    """Plan of a measurement.
+
+    Attributes:
+        cases: towns and drives.
+        percents: drifts of the odometry, percent.
+        cache: folder where simulated maps are kept.
+    """
+
+    cases: Sequence[DriftCase]
+    percents: Sequence[float]
+    cache: Path
+
+
+def run_drift(plan: DriftPlan, tell: Callable[[str], None] = lambda _: None) -> dict[str, Any]:
+    """Run the measurement; return its report."""
+    rows = []
+    with Engine.temporary(model_folder(DEFAULT_MODEL)) as engine:
+        for case in plan.cases:
+            maps = robot_maps(case, plan.percents, plan.cache, tell)
+            for percent in plan.percents:
+                row = measured(case, percent, maps[percent], engine)
+                tell(
+                    f"{row['case']}: {row['ate_before_m']} m before, {row['ate_after_m']} m after, "
+                    f"{row['loops_accepted']} loops, {row['loops_wrong']} wrong"
+                )
+                rows.append(row)
+        model_id = engine.model.id
+    return {"model_id": model_id, "machine": machine(), "rows": rows}
+
+
+def measured(
+    case: DriftCase, percent: float, maps: Sequence[TrueMap], engine: Engine
+) -> dict[str, Any]:
+    """Optimize the map of one or several robots; return its row of the report."""
+    content, true = joined(maps)
+    begun = perf_counter()
+    bent, after = bend_content(content, engine.model, PARAMETERS)
+    seconds = perf_counter() - begun
+    wrong = wrong_loops(bent, true)
+    accepted = np.array([each.verdict == "accepted" for each in bent.loops], dtype=bool)
+    before, now = (
+        ate_of(positions, bent, content, true)
+        for positions in (bent.frames.positions, bent.positions)
+    )
+    row = {
+        "case": f"{case.name}-{percent:g}percent",
+        "meters": round(sum(each.meters for each in maps), 1),
+        "robots": case.robots,
+        "drift_percent": percent,
+        "captures": len(content.frame_times),
+        "segments": len(content),
+        "loops_found": len(bent.loops),
+        "loops_accepted": bent.accepted,
+        "loops_wrong": int((wrong & accepted).sum()),
+        "loops_wrong_rejected": int((wrong & ~accepted).sum()),
+        "parts": int(bent.parts.max()) + 1,
+        "ate_before_m": round(before, 3),
+        "ate_after_m": round(now, 3),
+        "ate_after_scaled_m": round(ate_of(bent.positions, bent, content, true, scale=True), 3),
+        "seconds": round(seconds, 1),
+    }
+    if case.robots > 1:
+        graph = graph_of(content)
+        shared = shared_things(graph, true)
+        moved = graph if after is None else graph.moved(bent.positions, bent.yaws)
+        row["within_0_3_m"] = round(within(moved, shared), 4)
+    return row
+
+
+def joined(maps: Sequence[TrueMap]) -> tuple[CompactMap, Float64]:
+    """Return one map of all robots, each in the frame of its odometry, and the true poses."""
+    contents, first = [], 0
+    for number, each in enumerate(maps, start=1):
+        frames = each.content
+        yaws = headings(_rotations(frames))
+        zeros = np.zeros((len(yaws), 3))
+        contents.append(
+            replace(
+                frames,
+                frame="town",
+                ids=frames.ids + np.uint32(first),
+                frame_tracks=np.full(len(yaws), number, np.uint32),
+                frame_odometry=np.column_stack([frames.frame_positions, yaws, zeros]),
+            )
+        )
+        first += int(frames.ids.max()) + 1
+    content = union(contents)
+    true = np.empty((len(content.frame_times), 4, 4))
+    assert content.frame_tracks is not None
+    for number, each in enumerate(maps, start=1):
+        rows = np.flatnonzero(content.frame_tracks == number)
+        order = np.argsort(each.content.frame_times)
+        true[rows[np.argsort(content.frame_times[rows])]] = each.poses[order]
+    return content, true
+
+
+def _rotations(content: CompactMap) -> Float64:
+    from scipy.spatial.transform import Rotation
+
+    return np.asarray(Rotation.from_quat(content.frame_orientations).as_matrix())
+
+
+def wrong_loops(bent: BentMap, true: Float64) -> np.ndarray:
+    """Return which loops are wrong, bool (loops,)."""
+    if not bent.loops:
+        return np.zeros(0, dtype=bool)
+    loops = [each.loop for each in bent.loops]
+    one, other = (np.array([getattr(each, name) for each in loops]) for name in ("one", "other"))
+    positions, yaws = true[:, :3, 3], headings(true[:, :3, :3])
+    there, turned = relative(positions[one], yaws[one], positions[other], yaws[other])
+    meters = np.linalg.norm(there - np.array([each.position for each in loops]), axis=1)
+    angles = np.degrees(np.abs(wrapped(turned - np.array([each.yaw for each in loops]))))
+    return np.asarray((meters > WRONG[0]) | (angles > WRONG[1]))
+
+
+def ate_of(
+    positions: Float64, bent: BentMap, content: CompactMap, true: Float64, scale: bool = False
+) -> float:
+    """Return the absolute trajectory error, meters, root mean square over all captures.
+
+    Each connected part is aligned with the truth as one; before the optimization, each robot is.
+    With `scale`, the error of the scale is left out: loops do not see it.
+    """
+    if positions is bent.frames.positions:
+        assert content.frame_tracks is not None
+        groups: Int64 = content.frame_tracks.astype(np.int64)
+    else:
+        groups = bent.parts
+    squares, errors = 0.0, []
+    for group in np.unique(groups):
+        rows = np.flatnonzero(groups == group)
+        errors.append(absolute_error(positions[rows], true[rows, :3, 3], scale=scale).rmse)
+        squares += len(rows) * errors[-1] ** 2
+    return float(np.sqrt(squares / len(positions)))
+
+
+def shared_things(graph: GraphMap, true: Float64) -> Int64:
+    """Return pairs of segments of different robots that show the same thing, int64 (p, 2).
+
+    They are the nearest segments of each other where the robots truly were, within 0.3 m and seen
+    from within 10 m of each other.
+    """
+    from scipy.spatial import cKDTree
+
+    frames = graph.frames
+    there = graph.moved(true[:, :3, 3], headings(true[:, :3, :3])).centroids
+    tracks = frames.odometry.tracks[graph.captures]
+    spots = true[graph.captures, :3, 3]
+    pairs = []
+    names = np.unique(tracks)
+    for place, one in enumerate(names):
+        for other in names[place + 1 :]:
+            here, away = np.flatnonzero(tracks == one), np.flatnonzero(tracks == other)
+            near, found = cKDTree(there[away]).query(there[here])
+            _, back = cKDTree(there[here]).query(there[away])
+            mutual = (back[found] == np.arange(len(here))) & (near <= DOUBLE)
+            both = np.column_stack([here[mutual], away[found[mutual]]])
+            close = np.linalg.norm(spots[both[:, 0]] - spots[both[:, 1]], axis=1) <= 10.0
+            pairs.append(both[close])
+    return np.concatenate(pairs) if pairs else np.zeros((0, 2), dtype=np.int64)
+
+
+def within(graph: GraphMap, pairs: Int64) -> float:
+    """Return the share of pairs of segments that lie within 0.3 m of each other in a map."""
+    if not len(pairs):
+        return 0.0
+    apart = np.linalg.norm(graph.centroids[pairs[:, 0]] - graph.centroids[pairs[:, 1]], axis=1)
+    return float((apart <= DOUBLE).mean())

@@ -1,0 +1,107 @@
+"""Measurement of drift, in a small form."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from benchmarks.drift import drift as measurement
+from benchmarks.drift.drift import DriftPlan, measured, run_drift
+from benchmarks.drift.drifting_odometry import WanderingOdometry
+from benchmarks.drift.town_maps import DriftCase, TrueMap, robot_maps
+from cli import app
+from placecell.core.types import Float64
+from service.engine import Engine
+from tests.placecell.pose_graph.graph_builders import square_path
+from tests.service.merging.drifting_maps import SIDE, drifting_map
+from tests.service.service_builders import write_eigenvalue_model
+
+pytestmark = pytest.mark.slow
+
+
+def true_poses(laps: int) -> Float64:
+    positions, yaws = square_path(SIDE, laps)
+    poses = np.tile(np.eye(4), (len(yaws), 1, 1))
+    poses[:, :3, 3] = positions
+    poses[:, 0, 0] = poses[:, 1, 1] = np.cos(yaws)
+    poses[:, 1, 0] = np.sin(yaws)
+    poses[:, 0, 1] = -np.sin(yaws)
+    return poses
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("models")
+    write_eigenvalue_model(folder, pair_threshold=0.8)
+    return folder / "tiny"
+
+
+def test_loops_and_errors_of_robots_are_counted(model: Path) -> None:
+    with Engine.temporary(model) as engine:
+        maps = [
+            TrueMap(drifting_map(engine.model.id, seed, 1)[0], true_poses(1), 480.0)
+            for seed in (1, 2)
+        ]
+        both = measured(DriftCase(960.0, 2), 1.0, maps, engine)
+    assert both["loops_wrong"] == 0
+    assert both["loops_accepted"] > 10
+    assert both["parts"] == 1
+    assert both["within_0_3_m"] > 0.8
+
+
+def test_town_is_simulated_once_and_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    case = DriftCase(40.0, seed=3)
+    first = robot_maps(case, [0.0, 2.0], tmp_path)
+    assert len(first[0.0][0].content) > 20
+    np.testing.assert_allclose(
+        first[0.0][0].content.frame_positions, first[0.0][0].poses[:, :3, 3], atol=1e-9
+    )
+    from benchmarks.drift import town_maps
+
+    monkeypatch.delattr(town_maps, "_drive")
+    again = robot_maps(case, [0.0, 2.0], tmp_path)
+    np.testing.assert_array_equal(again[2.0][0].content.codes, first[2.0][0].content.codes)
+    report = run_drift(DriftPlan([case], [2.0], tmp_path))
+    assert report["rows"][0]["loops_wrong"] == 0
+    assert report["rows"][0]["ate_after_scaled_m"] <= report["rows"][0]["ate_after_m"]
+
+
+def test_routes_of_three_robots_overlap_in_both_directions() -> None:
+    _, routes = DriftCase(2000.0, 3).routes()
+    heads = [route.center[0] - route.center[-1] for route in routes]
+    assert len(routes) == 3
+    assert np.dot(heads[0], heads[1]) != 0.0
+    assert all(600.0 < route.length() < 700.0 for route in routes)
+
+
+def test_wandering_odometry_has_no_error_without_drift() -> None:
+    true = true_poses(1)
+    np.testing.assert_allclose(WanderingOdometry(0.0).poses(true, 1), true, atol=1e-9)
+    off = WanderingOdometry(2.0).poses(true, 1)
+    assert 0.5 < np.linalg.norm(off[-1, :3, 3] - true[-1, :3, 3]) < 50.0
+
+
+def test_command_ends_with_status_1_if_a_wrong_loop_is_accepted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    row = {
+        "case": "town", "meters": 40.0, "loops_accepted": 1, "loops_found": 1, "loops_wrong": 0,
+        "ate_before_m": 1.0, "ate_after_m": 0.1, "seconds": 2.0,
+    }  # fmt: skip
+    plans: list[DriftPlan] = []
+
+    def fake(plan: DriftPlan, tell: object) -> dict[str, object]:
+        del tell
+        plans.append(plan)
+        return {"rows": [row]}
+
+    monkeypatch.setattr(measurement, "run_drift", fake)
+    file = tmp_path / "drift.json"
+    words = ["bench", "drift", "--meters", "500", "--json", str(file)]
+    assert CliRunner().invoke(app, words).exit_code == 0
+    assert json.loads(file.read_text())["rows"] == [row]
+    assert [case.robots for case in plans[0].cases] == [1, 3, 1, 3]
+    row["loops_wrong"] = 1
+    assert CliRunner().invoke(app, words).exit_code == 1
