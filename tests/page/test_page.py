@@ -333,6 +333,22 @@ def test_page_without_maps_says_so_and_shows_a_scan(
         page.get_by_label("Choose a scan").set_input_files(two_robots.scan_file(tmp_path))
         page.get_by_text("There is no map to search").wait_for()
         assert page.get_by_text("Choose a map in the list").count() == 0
+        page.get_by_placeholder("Name of the new map").fill("first")
+        page.keyboard.press("Enter")
+        page.get_by_text("added to first").wait_for()
+        # Into a map with other segments, a scan comes at its pose there.
+        with Client(address) as client:
+            client.put_map("yard", two_robots.yard)
+            page.get_by_label("Search in").select_option("yard")
+            page.get_by_role("button", name="Add to yard").click()
+            page.get_by_text("To undo this, restore the version before").wait_for()
+            positions = client.get_map("yard").frame_positions
+        away = np.linalg.norm(positions - two_robots.position, axis=1)
+        added = ~(positions[:, None] == two_robots.yard.frame_positions[None]).all(axis=2).any(1)
+        assert added.sum() == 1
+        assert (away[added] < 0.3).all()
+        page.get_by_placeholder("Name of the new map").fill("yard")
+        page.get_by_role("alert").filter(has_text="There is a map yard already").wait_for()
 
 
 @pytest.mark.parametrize("width", [1280, 390])

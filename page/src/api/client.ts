@@ -1,6 +1,6 @@
 // The public HTTP API. Every address is relative to the page, so it holds behind a path prefix.
 import type {
-  Alignment, KeyInfo, LocalizeAnswer, MapDetail, MapList, MapSummary, MatchAnswer, Merged, RobotState,
+  Alignment, KeyInfo, LocalizeAnswer, MapDetail, MapList, MapSummary, MatchAnswer, Merged, Pose, RobotState,
   Scan, Version, Written,
 } from "./types";
 
@@ -121,10 +121,15 @@ export const api = {
       method: "PUT", body: file,
       headers: { "Content-Type": "application/vnd.placecell.map", "If-None-Match": "*" },
     }),
-  addScan: (name: string, robot: string, file: File) =>
+  /** Add a scan to a map at its pose there; without a pose, make a new map of it. */
+  addScan: (name: string, robot: string, file: File, pose: Pose | null) =>
     json<Written>(pathOf("maps", name, "scans"), {
-      method: "POST", body: file, query: { name: file.name, robot, create: true },
-      headers: { "Content-Type": "application/octet-stream" },
+      method: "POST", body: file,
+      query: {
+        name: file.name, robot,
+        ...(pose ? { deduplicate: true, x: pose.translation[0], y: pose.translation[1], z: pose.translation[2], yaw: pose.yaw } : { create: true }),
+      },
+      headers: { "Content-Type": "application/octet-stream", ...(pose ? {} : { "If-None-Match": "*" }) },
     }),
   scan: (file: File) =>
     json<Scan>("scans", {

@@ -2,10 +2,10 @@
 import { signal } from "@preact/signals";
 import { Vector3 } from "three";
 import { api } from "../api/client";
-import type { Localization, Scan, Vector } from "../api/types";
+import type { Localization, Pose, Scan, Vector } from "../api/types";
 import { FIX, GRAY, kindColor, type Color } from "../scene/colors";
 import { arrow, ellipse, matrixOf, vector, type Line } from "../scene/scene";
-import { attempt, current, list, matched, mayWriteAny, open, openMap, recolor, refresh, say, scanShown, scene } from "../state/store";
+import { attempt, current, list, matched, mayWrite, mayWriteAny, open, openMap, recolor, refresh, say, scanShown, scene } from "../state/store";
 import { Button, count, degrees, FileButton, meters, percent } from "./parts";
 import { useState } from "preact/hooks";
 
@@ -114,13 +114,7 @@ function adviceFor(answers: Localization[], names: string[]): string {
 export function Locate() {
   const found = located.value;
   const [name, setName] = useState("");
-  const add = async (): Promise<void> => {
-    const written = await attempt(() => api.addScan(name, "page", found!.file));
-    if (!written) return;
-    say("done", `${count(written.changed)} segments added to ${name}`);
-    await refresh();
-    await openMap(name);
-  };
+  const taken = (list.value?.maps ?? []).some((each) => each.name === name);
   return (
     <>
       <p>Drop one LiDAR scan on this page to see its segments and where it was taken. PCD, PLY, LAS, LAZ, KITTI .bin, NumPy and CSV files work; z must point up.</p>
@@ -147,7 +141,7 @@ export function Locate() {
           <p>{found.scan.format}: {count(found.scan.points)} points, {count(found.scan.segments.length)} segments.</p>
           {found.scan.problems.map((each) => <p key={each.what} class="warning">{each.what} {each.cure}</p>)}
           {!found.scan.segments.length && <p>No segment was found. A segment is an object of 100 or more points, such as a car or a trunk. Check that z points up and that lengths are meters.</p>}
-          {(found.answers?.length === 0 || list.value?.maps.length === 0) && <p>There is no map to search. {mayWriteAny.value && "Add the scan to a new map: it then has this place."}</p>}
+          {(found.answers?.length === 0 || list.value?.maps.length === 0) && <p>There is no map to search. {mayWriteAny.value && "Make a new map of the scan: the service then knows this place."}</p>}
           {found.answers && found.answers.length > 0 && !found.answers.some((each) => each.localized) && (
             <p class="warning"><b>The scan was not located.</b> {adviceFor(found.answers, (list.value?.maps ?? []).map((each) => each.name))}</p>
           )}
@@ -158,12 +152,12 @@ export function Locate() {
               ))}
             </div>
           )}
-          {(found.answers ?? []).slice(0, 5).map((answer) => <Answer key={answer.map} answer={answer} />)}
+          {(found.answers ?? []).slice(0, 5).map((answer) => <Answer key={answer.map} answer={answer} file={found.file} />)}
           {mayWriteAny.value && found.scan.segments.length > 0 && (
-            <form class="row" onSubmit={(event) => { event.preventDefault(); void add(); }}>
-              <label class="grow">Add the segments of the scan to a map, at its pose there; a new name makes a map <input list="map-names" placeholder="Name of the map" required pattern="[A-Za-z0-9][A-Za-z0-9._\-]{0,63}" value={name} onInput={(event) => setName(event.currentTarget.value)} /></label>
-              <datalist id="map-names">{(list.value?.maps ?? []).map((each) => <option key={each.name} value={each.name} />)}</datalist>
-              <button type="submit">Add</button>
+            <form class="row" onSubmit={(event) => { event.preventDefault(); if (!taken) void add(found.file, name, null); }}>
+              <label class="grow">Make a new map of the scan <input placeholder="Name of the new map" required pattern="[A-Za-z0-9][A-Za-z0-9._\-]{0,63}" value={name} onInput={(event) => setName(event.currentTarget.value)} /></label>
+              <button type="submit" aria-disabled={taken}>Make</button>
+              {taken && <span role="alert">There is a map {name} already. A scan comes into a map at its pose there: search in {name}.</span>}
             </form>
           )}
           <Button onClick={clear}>Clear</Button>
@@ -173,8 +167,18 @@ export function Locate() {
   );
 }
 
-function Answer(props: { answer: Localization }) {
-  const { answer } = props;
+async function add(file: File, name: string, pose: Pose | null): Promise<void> {
+  const before = list.value?.maps.find((each) => each.name === name)?.segments ?? 0;
+  const written = await attempt(() => api.addScan(name, "page", file, pose));
+  if (!written) return;
+  const known = written.repeats ? `; ${count(written.repeats)} were there already` : "";
+  say("done", `${count(written.segments - before)} segments of ${file.name} added to ${name}${known}`, pose ? "To undo this, restore the version before under Versions." : "");
+  await refresh();
+  await openMap(name, pose === null);
+}
+
+function Answer(props: { answer: Localization; file: File }) {
+  const { answer, file } = props;
   const { pose } = answer;
   return (
     <div class={answer.localized ? "answer good" : "answer"}>
@@ -183,7 +187,10 @@ function Answer(props: { answer: Localization }) {
         <>
           <p>x {meters(pose.translation[0])}, y {meters(pose.translation[1])}, z {meters(pose.translation[2])}, heading {degrees(pose.yaw)}</p>
           <p>{percent(answer.probability)} sure; {answer.inliers.length} segments agree.</p>
-          <Button onClick={() => void showIn(answer)}>Show</Button>
+          <div class="row">
+            <Button onClick={() => void showIn(answer)}>Show</Button>
+            {mayWrite(answer.map) && <Button onClick={() => void add(file, answer.map, pose)}>Add to {answer.map}</Button>}
+          </div>
         </>
       ) : (
         <p>{REASONS[answer.reason ?? ""] ?? ""} {answer.detail}</p>

@@ -70,8 +70,10 @@ export function ago(seconds: number): string {
   return seconds < 129_600 ? `${Math.round(seconds / 3600)} h ago` : `${Math.round(seconds / 86_400)} days ago`;
 }
 
-export const meters = (value: number): string => `${value.toFixed(Math.abs(value) < 10 ? 2 : 1)} m`;
-export const degrees = (radians: number): string => `${((radians * 180) / Math.PI).toFixed(1)}°`;
+/** A number with so many digits after the point; zero has no sign. */
+const fixed = (value: number, digits: number): string => value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1");
+export const meters = (value: number): string => `${fixed(value, Math.abs(value) < 10 ? 2 : 1)} m`;
+export const degrees = (radians: number): string => `${fixed((radians * 180) / Math.PI, 1)}°`;
 export const percent = (share: number): string => `${(100 * share).toFixed(share > 0.99 && share < 1 ? 1 : 0)}%`;
 
 /** Whether a robot has no pose now: its last report had none. Both ages are of one moment. */
