@@ -138,7 +138,8 @@ def test_cut_and_restarted_mirror_goes_on_with_the_missing_page(
     assert not list(site.spool.rglob("*.page"))
 
 
-@pytest.mark.parametrize("steps", range(9))
+@pytest.mark.slow
+@pytest.mark.parametrize("steps", [1, 3, 4, 6])
 def test_mirror_that_is_cut_from_the_local_service_recovers(
     site: Site, yard: Callable[..., None], steps: int
 ) -> None:

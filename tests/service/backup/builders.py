@@ -7,7 +7,7 @@ from service.backup.folder import FolderTarget
 from service.maps.store import Annotation, Ids, MapHead, MapStore, Note, StoreSnapshot
 
 NOTE = Note(1.7e9 + 1 / 3, "ann", "edit", 3, 1)
-LARGE = bytes(range(256)) * 40_000
+LARGE = bytes(range(256)) * 8_000
 
 
 class KilledError(BaseException):

@@ -331,6 +331,34 @@ class TestBucket:
         client.delete_object(Bucket="maps", Key=f"fleet/a/objects/{name}")
         assert BackupSnapshot(target).faults()
 
+    def test_backup_killed_at_any_write_leaves_the_previous_one(
+        self, store: SqliteMapStore, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        head = fill(store)
+        target: Any = target_at("s3://maps/x")
+        back_up(store, target)
+        before = content_of(store)
+        store.append(head, b"one more", NOTE, 0)
+        after = content_of(store)
+        put = target._put
+        outcomes = []
+        for count in steps():
+            countdown = Countdown(count)
+
+            def put_or_die(name: str, data: bytes, to: Countdown = countdown, **rest: str) -> None:
+                to.step()
+                put(name, data, **rest)
+
+            monkeypatch.setattr(target, "_put", put_or_die)
+            try:
+                back_up(store, target)
+                break
+            except KilledError:
+                outcomes.append(content(BackupSnapshot(target)) == before)
+        assert outcomes == [True] * len(outcomes)
+        assert len(outcomes) >= 2
+        assert content(BackupSnapshot(target)) == after
+
     def test_old_objects_are_removed_and_new_ones_of_others_stay(
         self, store: SqliteMapStore, client: Any, monkeypatch: pytest.MonkeyPatch
     ) -> None:

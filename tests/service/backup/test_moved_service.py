@@ -88,6 +88,7 @@ def moved_by_migration(source: str, target: str, folder: Path) -> None:
 MOVES = [moved_by_backup, moved_by_migration]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("move", MOVES)
 def test_moved_service_shows_the_same_bytes_and_etags(
     start: Any, manifest: Manifest, data_dir: Path, tmp_path: Path, move: Callable[..., None]
@@ -104,6 +105,7 @@ def test_moved_service_shows_the_same_bytes_and_etags(
     assert later["first"] > given["first"]
 
 
+@pytest.mark.slow
 @pytest.mark.integration
 @pytest.mark.parametrize("move", MOVES)
 def test_maps_move_to_postgresql_and_back(
