@@ -58,27 +58,34 @@ const EMPTY = [
   "Choose a map in the list to see it here. Drop a scan on this page to find where it was taken, or a map file to store it.",
 ];
 
+/** Largest number of names in the picture. */
+const MOST_LABELS = 60;
+
 /** Names of the robots in the picture, and of the maps if there are several. */
 function Labels() {
   const element = useRef<HTMLDivElement>(null);
-  void picture.value;
   const view = scene();
+  const [known, isSeveral] = [robots.value, open.value.size > 1];
   const places: { name: string; kind: string; place: Vector3 }[] = [];
   if (view) {
-    for (const robot of robots.value) {
+    for (const robot of known) {
       const layer = robot.map ? view.layers.get(robot.map) : undefined;
       if (!layer || !robot.position) continue;
       const name = isLost(robot) ? `${robot.robot}, last pose` : robot.robot;
       places.push({ name, kind: "robot", place: vector(robot.position).applyMatrix4(layer.pose) });
     }
-    if (view.layers.size > 1) {
+    if (isSeveral) {
       for (const layer of view.layers.values()) {
         const { low, high, content } = layer;
         places.push({ name: content.name, kind: "map", place: new Vector3(0.5 * (low.x + high.x), high.y, low.z).applyMatrix4(layer.pose) });
       }
     }
   }
+  places.splice(MOST_LABELS);
+  // Only a picture with names costs time each time that it is drawn.
+  if (places.length) void picture.value;
   useEffect(() => {
+    if (!places.length) return;
     // The policy of the page forbids style attributes; positions are set by the script.
     const items = element.current!.children;
     const taken: [number, number][] = [];
@@ -88,11 +95,12 @@ function Labels() {
       if (!item) return;
       item.hidden = at === null;
       // A label moves down until it lies on no other; half a label is 60 pixels at most names.
-      while (at && taken.length < 50 && taken.some(([x, y]) => Math.abs(at[0] - x) < 90 && Math.abs(at[1] - y) < 17)) at[1] += 17;
+      while (at && taken.some(([x, y]) => Math.abs(at[0] - x) < 90 && Math.abs(at[1] - y) < 17)) at[1] += 17;
       if (at) taken.push(at);
       if (at) item.style.transform = `translate(${at[0].toFixed(0)}px, ${at[1].toFixed(0)}px)`;
     });
   });
+  if (!places.length) return null;
   return <div class="labels" aria-hidden="true" ref={element}>{places.map(({ name, kind }) => <span key={`${kind} ${name}`} class={kind}><b>{name}</b></span>)}</div>;
 }
 
