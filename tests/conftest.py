@@ -8,14 +8,17 @@ import inspect
 import os
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from types import CodeType, FunctionType
 
 import pytest
 from hypothesis import settings
 
-from tests.service.postgres_server import postgres_database, postgres_server
+from tests.service.postgres_server import ON_POSTGRES, postgres_database, postgres_server
 
 __all__ = ["postgres_database", "postgres_server"]  # fixtures
+
+SERVICE = Path(__file__).resolve().parent / "service"
 
 settings.register_profile("fast", settings.get_profile("ci"), max_examples=20)
 
@@ -75,6 +78,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
     A worker takes whole files. A long file at the end would leave the other workers idle.
     """
+    if ON_POSTGRES:
+        for item in items:
+            if SERVICE in item.path.parents:
+                item.add_marker(pytest.mark.integration)
+                if item.get_closest_marker("sqlite"):
+                    item.add_marker(pytest.mark.skip("is about the files of SQLite"))
     known = dict[object, bool]()
     for item in items:
         assert isinstance(item, pytest.Function)

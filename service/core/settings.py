@@ -42,6 +42,7 @@ OTHER_NAMES = {
     PREFIX + "KEY": "'placecell maps': key to send",
     PREFIX + "REMOTE_KEY": "'placecell maps mirror': key to send to the remote service",
     PREFIX + "DEBUG": "'placecell': stack traces of unexpected errors",
+    PREFIX + "TEST_STORE": "tests: `postgres` runs the tests of the service on PostgreSQL",
     PREFIX + "DRIVES": "tests: folder of recorded drives",
     "PLACECELL_CACHE": "`placecell`: folder that keeps trajectories of odometry. (default: "
     "`~/.cache/placecell`)",

@@ -8,6 +8,7 @@ import pytest
 from placecell.descriptors.manifest import Manifest
 from service.app import create_app
 from service.core.settings import Settings
+from tests.service.postgres_server import ON_POSTGRES
 from tests.service.service_builders import write_eigenvalue_model, write_onnx_model
 
 with warnings.catch_warnings():
@@ -16,6 +17,12 @@ with warnings.catch_warnings():
     from starlette.testclient import TestClient
 
 Start = Callable[..., AbstractContextManager[TestClient]]
+
+
+@pytest.fixture(autouse=ON_POSTGRES)
+def on_postgres(postgres_database: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keeps the maps of the test in a database of its own."""
+    monkeypatch.setenv("PLACECELL_DATABASE", postgres_database)
 
 
 @pytest.fixture(scope="session")

@@ -18,6 +18,9 @@ from pathlib import Path
 
 import pytest
 
+ON_POSTGRES = os.environ.get("PLACECELL_TEST_STORE") == "postgres"
+"""Whether all tests of the service run on PostgreSQL."""
+
 USER = "placecell"
 ORDINARY_USERS = ("nobody", "postgres", "daemon")
 """Users that run the server if the tests run as root."""

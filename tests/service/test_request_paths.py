@@ -11,6 +11,8 @@ from placecell.descriptors.manifest import Manifest
 from tests.service.request_tracing import end_at_commit, ended_by, trace_of_search, traced
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
+pytestmark = pytest.mark.sqlite
+
 MOST = 15
 """Largest number of files that a request for recognition passes."""
 

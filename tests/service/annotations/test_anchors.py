@@ -227,6 +227,7 @@ def test_roles_of_keys(start: Any, tmp_path: Path, yard: CompactMap) -> None:
         assert service.delete(own, headers=robot).status_code == 204
 
 
+@pytest.mark.sqlite
 def test_altered_annotation_is_left_out_and_told_by_verify(
     start: Any, data_dir: Path, yard: CompactMap
 ) -> None:
@@ -244,6 +245,7 @@ def test_altered_annotation_is_left_out_and_told_by_verify(
     assert "map 'yard': anchor '' was altered" in wrong
 
 
+@pytest.mark.sqlite
 def test_database_of_version_2_stays_readable_and_takes_annotations(
     start: Any, data_dir: Path
 ) -> None:

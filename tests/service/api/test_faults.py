@@ -18,6 +18,8 @@ from service.engine import StartError
 from tests.service.faulty_disk import failing, make_read_only, small_disk
 from tests.service.service_builders import assert_problem, map_of, random_codes
 
+pytestmark = pytest.mark.sqlite
+
 ANY = {"If-Match": "*"}
 DATABASE = "maps.sqlite"
 

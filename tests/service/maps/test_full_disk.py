@@ -16,6 +16,8 @@ from tests.service.api.test_faults import put
 from tests.service.faulty_disk import small_disk
 from tests.service.service_builders import assert_problem, map_of, random_codes
 
+pytestmark = pytest.mark.sqlite
+
 NOTE = Note(1.7e9, "ann", "put", 3, 1)
 
 

@@ -226,6 +226,7 @@ def alter(data_dir: Path, statement: str) -> None:
         connection.commit()
 
 
+@pytest.mark.sqlite
 def test_damaged_map_is_reported_and_others_are_served(
     start: Any, yard: bytes, data_dir: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -252,12 +253,14 @@ def test_damaged_map_is_reported_and_others_are_served(
         assert service.get("/maps/shed").content == yard
 
 
+@pytest.mark.sqlite
 def test_version_altered_on_disk_is_not_served(service: Any, yard: bytes, data_dir: Path) -> None:
     service.put("/maps/yard", content=yard)
     alter(data_dir, "UPDATE bases SET data = zeroblob(100)")
     assert_problem(service.get("/maps/yard"), 500, "map-damaged")
 
 
+@pytest.mark.sqlite
 @pytest.mark.parametrize("what", ["cut", "empty", "rubbish", "gone"])
 def test_unreadable_database_stops_the_start(
     start: Any, yard: bytes, data_dir: Path, what: str
@@ -274,6 +277,7 @@ def test_unreadable_database_stops_the_start(
         pass
 
 
+@pytest.mark.sqlite
 @pytest.mark.parametrize(
     ("setting", "status", "kind"),
     [("max_page_count = 1", 507, "disk-full"), ("query_only = ON", 503, "store-unavailable")],

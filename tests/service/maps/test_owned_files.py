@@ -25,6 +25,8 @@ from service.maps.store import Ids, Note, StoreError, StoreLockedError
 from tests.fixtures.killed_service import EXPECTED
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
+pytestmark = pytest.mark.sqlite
+
 NOTE = Note(1.7e9, "ann", "edit", 3, 1)
 ANY = {"If-Match": "*"}
 OLD = Path(__file__).resolve().parents[2] / "fixtures" / "user-version-1"

@@ -17,6 +17,7 @@ from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantizer
 from service.core.settings import Limits
 from service.maps.cache import MapCache
+from service.maps.following.follower import Follower
 from service.maps.index import FlatIndex, MapIndex, NibbleIndex, Nibbles
 from service.maps.layers import MapLayers
 from service.maps.writes import maintenance
@@ -242,6 +243,7 @@ def test_B19_flattening_leaves_one_copy_in_memory(
     start: Any, manifest: Manifest, data_dir: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Maintenance, "_work", lambda _: None)
+    monkeypatch.setattr(Follower, "_work", lambda _: None)
     released: list[float] = []
     monkeypatch.setattr(maintenance, "release", lambda: released.append(time.monotonic()))
     layers: weakref.WeakSet[MapLayers] = weakref.WeakSet()

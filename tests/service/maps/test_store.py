@@ -17,6 +17,8 @@ from service.maps.sqlite.id_ledger import SKIPPED
 from service.maps.sqlite.store import FILE, SqliteMapStore
 from service.maps.store import MapHead, Note, StoreError, StoreLockedError
 
+pytestmark = pytest.mark.sqlite
+
 NOTE = Note(1.7e9, "ann", "edit", 3, 1)
 LARGE = bytes(range(256)) * (PART_BYTES // 256) + b"a second part"
 

@@ -21,6 +21,8 @@ from service.maps.store import (
 )
 from tests.service.maps.test_store import behind, grown
 
+pytestmark = pytest.mark.sqlite
+
 NOTE = Note(1.7e9, "ann", "edit", 3, 1)
 
 

@@ -14,6 +14,8 @@ from service.maps.sqlite.store import FILE, SqliteMapStore
 from service.maps.store import Note
 from tests.fixtures.killed_service import EXPECTED
 
+pytestmark = pytest.mark.sqlite
+
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 DATABASE = FIXTURES / "version-1.sqlite"
 KILLED = FIXTURES / "version-1-killed"
