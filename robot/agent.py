@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from placecell_client.maps.follow import moved_at
 
 from placecell.core.types import Float32, Float64, Int8
 from robot.core.link import FixAnswer, FixRequest, Link
@@ -34,6 +35,8 @@ radius of a local map."""
 JUMP_METERS = 10.0
 """Distance of two poses from which a jump means that the robot was carried away."""
 
+FOLLOWED_METERS = 0.01
+"""Movement of the map around the robot from which its pose follows, meters."""
 SAVED_METERS = 0.5
 """Distance between two records of the last pose."""
 MOVED = np.array([0.5, 0.5, 0.5, 0.02, 0.02, 0.1])
@@ -147,6 +150,7 @@ class RobotAgent:
         if self._state.state is AgentState.STARTING:
             self._start()
         self._take_answer()
+        self._follow_map()
         step = self._perception.add(points, time_s, odom_pose, self._engine.describe)
         self._handle_jump(step)
         if step.keyframe is not None:
@@ -280,6 +284,21 @@ class RobotAgent:
             self.messages.append(f"the clock of the scans went back by {before - time_s:.3f} s")
         elif time_s - before > CLOCK_GAP:
             self.messages.append(f"no scan for {time_s - before:.1f} s")
+
+    def _follow_map(self) -> None:
+        """Move the pose with the map, if an optimization moved its captures around the robot."""
+        replaced = self._engine.take_replaced()
+        if replaced is None or self._correction.transform is None:
+            return
+        position = (self._correction.transform @ self._odom_pose)[:3, 3]
+        moved = moved_at(*replaced, position.tolist())
+        if moved is None:
+            return
+        meters = float(np.linalg.norm(moved[:3, :3] @ position + moved[:3, 3] - position))
+        if meters > FOLLOWED_METERS:
+            self._correction.follow(moved)
+            self._asks_now = True
+            self.messages.append(f"the map was corrected here: the pose moves by {meters:.2f} m")
 
     def _handle_jump(self, step: PerceptionStep) -> None:
         if step.jump == "doubt":

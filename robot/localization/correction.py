@@ -59,6 +59,16 @@ class Correction:
         """Keep a pose as a candidate: one fix that agrees confirms it."""
         self._candidates.append((fix, transform))
 
+    def follow(self, moved: Float64) -> None:
+        """Move the pose with the map, whose place around the robot was corrected.
+
+        Args:
+            moved: transform (4, 4) from the earlier version of the map to the later one.
+        """
+        if self.transform is not None:
+            self.transform = moved @ self.transform
+        self._candidates.clear()
+
     def add(self, fix: Fix, transform: Float64) -> Verdict:
         """Take a fix.
 

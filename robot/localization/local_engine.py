@@ -45,6 +45,8 @@ class LocalEngine:
         self.etag = ""
         self._name = ""
         self._positions: cKDTree | None = None
+        self._content: CompactMap | None = None
+        self._replaced: tuple[CompactMap, CompactMap] | None = None
         self._lock = Lock()
 
     @property
@@ -112,8 +114,19 @@ class LocalEngine:
         tree = cKDTree(content.frame_positions[:, :2]) if len(content.frame_positions) else None
         with self._lock:
             before, self._name, self.etag, self._positions = self._name, name, etag, tree
+            if self._content is not None:
+                # A version that nobody took is skipped: the oldest one is compared.
+                first = self._content if self._replaced is None else self._replaced[0]
+                self._replaced = first, content
+            self._content = content
         if before:
             self._engine.delete_map(before)
+
+    def take_replaced(self) -> tuple[CompactMap, CompactMap] | None:
+        """Return the map before and after its last replacement, once; None if it stayed."""
+        with self._lock:
+            replaced, self._replaced = self._replaced, None
+        return replaced
 
     @property
     def has_map(self) -> bool:

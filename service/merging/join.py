@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from placecell_client import CompactMap, Delta, moved, originated
 from placecell_client.maps.edit import apply, difference, empty, take, with_optional
+from placecell_client.maps.follow import followed
 from scipy.spatial.transform import Rotation
 
 from placecell.core.cancellation import current
@@ -136,6 +137,7 @@ def join(
     outcomes = []
     for part in parts:
         placed = moved(part.content, part.pose.rotation, part.pose.translation, target.frame)
+        placed = followed(placed, [target])
         target = with_optional(target, ("source", "source_ids"))
         known = keys_in(placed, target)
         given = keys_in(target, placed)

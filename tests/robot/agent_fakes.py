@@ -31,6 +31,11 @@ class FakeEngine:
         self.local_pose: Float64 | None = None
         self.mapped: Callable[[Float64], float | None] = lambda _: 0.0
         self.asked: list[FixRequest] = []
+        self.replaced: tuple[CompactMap, CompactMap] | None = None
+
+    def take_replaced(self) -> tuple[CompactMap, CompactMap] | None:
+        replaced, self.replaced = self.replaced, None
+        return replaced
 
     @property
     def has_map(self) -> bool:

@@ -5,10 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from placecell_client.maps.follow import moved_at
 
 from robot.agent import RobotAgent
 from robot.core.link import LinkError
 from robot.core.settings import AgentSettings
+from tests.client.test_follow import line, turned
 from tests.robot.agent_fakes import (
     FakeClock,
     FakeEngine,
@@ -282,3 +284,24 @@ def test_robot_without_localization_maps(street: Street) -> None:
     assert agent.map_to_odom is not None
     agent.finish()
     assert agent.close().spool.entries > 0
+
+
+def test_pose_moves_with_a_map_that_was_optimized(street: Street) -> None:
+    engine = FakeEngine()
+    agent = new_agent(settings(), FakeLink(), engine)
+    drive(agent, street, steps(0, 6))
+    agent.on_initial_pose(OFFSET @ at(5.0), np.eye(6) * 0.01)
+    before = line()
+    after = turned(before)
+    engine.replaced = before, after
+    position = (OFFSET @ at(6.0))[:3, 3]
+    moved = moved_at(before, after, position.tolist())
+    assert moved is not None
+    drive(agent, street, [6.0], first_time=0.6)
+    assert agent.map_to_odom is not None
+    np.testing.assert_allclose(agent.map_to_odom.transform, moved @ OFFSET, atol=1e-6)
+    assert any("map was corrected" in message for message in agent.messages)
+    # A version that moves nothing here changes nothing.
+    engine.replaced = after, after
+    drive(agent, street, [7.0], first_time=0.7)
+    np.testing.assert_allclose(agent.map_to_odom.transform, moved @ OFFSET, atol=1e-6)

@@ -106,3 +106,14 @@ def test_covariance_at_the_sensor_has_the_lever_of_the_heading() -> None:
     assert found[0, 0] == pytest.approx(0.01)
     assert found[5, 5] == pytest.approx(1e-4)
     np.testing.assert_allclose(found, found.T)
+
+
+def test_pose_follows_a_map_that_was_moved() -> None:
+    correction = Correction()
+    moved = np.eye(4)
+    moved[:3, 3] = 2.0, -1.0, 0.0
+    correction.follow(moved)
+    assert correction.transform is None
+    correction.place(fix(at(0), at(0), 0.0), at(0))
+    correction.follow(moved)
+    np.testing.assert_allclose(transform_of(correction), moved)

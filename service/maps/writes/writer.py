@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from placecell_client import CompactMap, Delta, decode, decode_delta, encode
 from placecell_client.maps.edit import apply, take
+from placecell_client.maps.follow import followed
 
 from placecell.core.types import UInt32
 from service.core.auth import Principal
@@ -136,6 +137,8 @@ class MapWriter:
             edit = replace(edit, changed=restore_names(self.principal, snapshot, edit.changed))
             layers = MapLayers.of(take(edit.changed, NONE)) if snapshot is None else snapshot.layers
             check_joins(edit.changed, name, layers.base)
+            # A robot writes in its odometry frame, also after its captures were moved.
+            edit = replace(edit, changed=followed(edit.changed, [layers.base, layers.recent]))
             refreshed, repeats = NONE, 0
             if options.deduplicate:
                 unique = self._deduplicated(edit, layers)

@@ -5,11 +5,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from placecell_client import CompactMap, decode
+from placecell_client import CompactMap, Delta, decode, encode_delta
+from placecell_client.maps.canonical import canonical
+from placecell_client.maps.edit import take
 
 from placecell.descriptors.manifest import Manifest
 from placecell.pose_graph import PoseGraphUnavailableError
 from service.core.problems import Problem
+from service.maps.sqlite.store import SqliteMapStore
+from service.maps.store import StoreError
 from service.merging import bending
 from tests.service.merging.drifting_maps import drifting_map
 from tests.service.merging.merged_map_builders import models_that_judge, put
@@ -165,3 +169,40 @@ def test_work_above_the_limit_is_refused(
 
     monkeypatch.setattr(engine, "check_cost", refuse)
     assert_problem(service.post("/maps/block/optimize"), 413, "too-much-work")
+
+
+def test_robot_that_writes_on_after_the_optimization_follows_its_moved_captures(
+    service: Any, manifest: Manifest
+) -> None:
+    whole, _ = drifting_map(manifest.model_id, seed=1, odometry=True)
+    stop = np.sort(whole.frame_times)[-20]
+    early = whole.frame_times[whole.frame_index] < stop
+    put(service, "block", canonical(take(whole, early)))
+    optimize(service)
+    late = Delta(canonical(take(whole, ~early)), np.zeros(0, np.uint32))
+    for _ in range(2):  # a repeated edit changes nothing
+        edited = service.post("/maps/block/segments", content=encode_delta(late))
+        assert edited.is_success, edited.text
+    after = content(service)
+    assert len(after) == len(whole)
+    order = np.argsort(after.frame_times)
+    steps = np.linalg.norm(np.diff(after.frame_positions[order], axis=0), axis=1)
+    assert steps.max() < 6.5  # captures are 5 m apart, also where the edit joins
+    raw = whole.frame_positions[np.argsort(whole.frame_times)]
+    assert np.linalg.norm(after.frame_positions[order][-1] - raw[-1]) > 0.2
+
+
+def test_failed_write_leaves_the_whole_old_version(
+    service: Any, drifting: tuple[CompactMap, np.ndarray], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    put(service, "block", drifting[0])
+    before = service.get("/maps/block").content
+
+    def full(*_: Any, **__: Any) -> Any:
+        raise StoreError("full", "the disk is full")
+
+    monkeypatch.setattr(SqliteMapStore, "append", full)
+    assert service.post("/maps/block/optimize").status_code >= 500
+    monkeypatch.undo()
+    assert service.get("/maps/block").content == before
+    assert optimize(service)["sequence"] == 2
