@@ -591,6 +591,7 @@ class Engine:
         dry_run: bool = False,
         principal: Principal = ANYONE,
         conditions: Preconditions = NO_CONDITIONS,
+        rigid: bool = True,
     ) -> MergeResult:
         """Align maps with each other and write their segments into one map; see `Merger.merge`.
 
@@ -602,6 +603,8 @@ class Engine:
         for each in maps:
             principal.check_map(each)
         options = parameters or AlignmentParameters()
+        if not rigid:
+            check_solver()
         self.check_alignments([name, *maps], MERGE_FEWER, options)
         merger = Merger(
             writer=writer,
@@ -609,6 +612,7 @@ class Engine:
             deduplicate=deduplicate,
             dry_run=dry_run,
             check=current().check,
+            rigid=rigid,
         )
         merged = merger.merge(name, maps)
         carried = carry_anchors(merged, name, self.maps, self.annotations, principal.name)

@@ -45,6 +45,12 @@ def merge(
         ),
     ] = None,
     motion: Motion = "yaw",
+    bend: Annotated[
+        bool,
+        typer.Option(
+            "--bend", help="Also remove drift: optimize the merged map before it is written."
+        ),
+    ] = False,
     as_json: JsonFlag = False,
     url: Url = LOCAL,
 ) -> None:
@@ -60,6 +66,7 @@ def merge(
             dry_run=dry_run,
             deduplicate=not keep_repeats,
             motion=motion,
+            rigid=not bend,
             if_match=if_match,
         )
     if as_json:

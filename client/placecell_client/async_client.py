@@ -320,12 +320,13 @@ class AsyncClient(BaseClient):
         dry_run: bool = False,
         deduplicate: bool = True,
         motion: Motion = "yaw",
+        rigid: bool = True,
         if_match: str | None = None,
         timeout: float = ALIGNMENT_SECONDS,
     ) -> Merge:
         """See `Client.merge_maps`."""
         call = self._calls.merge_maps(
-            merged_map, maps, dry_run, deduplicate, motion, if_match, timeout
+            merged_map, maps, dry_run, deduplicate, motion, if_match, timeout, rigid
         )
         return await self._send(call)
 

@@ -584,6 +584,7 @@ class Client(BaseClient):
         dry_run: bool = False,
         deduplicate: bool = True,
         motion: Motion = "yaw",
+        rigid: bool = True,
         if_match: str | None = None,
         timeout: float = ALIGNMENT_SECONDS,
     ) -> Merge:
@@ -600,6 +601,8 @@ class Client(BaseClient):
             deduplicate: Leave out segments that repeat a segment of another map.
             motion: Degrees of freedom: `yaw` (x, y, z, yaw; all frames are level) or `se3` (all
                 six).
+            rigid: Move each map as a whole. False also removes drift: the merged map is optimized
+                before it is written, as by `optimize_map`.
             if_match: ETag that the merged map's newest version must have.
             timeout: Time limit of the call in seconds; it replaces the client's.
 
@@ -607,7 +610,7 @@ class Client(BaseClient):
             The alignments, the outcome for each map, and the new version.
         """
         call = self._calls.merge_maps(
-            merged_map, maps, dry_run, deduplicate, motion, if_match, timeout
+            merged_map, maps, dry_run, deduplicate, motion, if_match, timeout, rigid
         )
         return self._send(call)
 

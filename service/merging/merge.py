@@ -8,12 +8,14 @@ from placecell_client import MapFileError, encode
 
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
+from placecell.pose_graph import PoseGraphParameters
 from service.core.problems import Problem
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import OutOfIdsError
 from service.maps.writes.deduplication import RADIUS, SameView
 from service.maps.writes.writer import MapWriter, WriteResult, out_of_ids
 from service.merging.alignment import CancellationCheck, check_same_model
+from service.merging.bending import bend_content
 from service.merging.join import (
     ROUNDED,
     MergePart,
@@ -81,6 +83,7 @@ class Merger:
         deduplicate: leave out segments that another map's segment shows already.
         dry_run: write nothing; only return what would change.
         check: raises `Cancelled` if the deadline passed or the client disconnected.
+        rigid: move each map as a whole; else the merged map is optimized before it is written.
     """
 
     writer: MapWriter
@@ -88,6 +91,7 @@ class Merger:
     deduplicate: bool
     dry_run: bool
     check: CancellationCheck
+    rigid: bool = True
 
     def merge(self, name: str, names: Sequence[str]) -> MergeResult:
         """Merge stored maps into a merged map, which is created if it does not exist.
@@ -182,6 +186,11 @@ class Merger:
             ) from error
         except OutOfIdsError as error:
             raise out_of_ids(name, error) from error
+        if not self.rigid:
+            self.check()
+            model = writer.models.named(plan.maps[0].model_id)
+            _, bent = bend_content(content, model, PoseGraphParameters())
+            content = content if bent is None else bent
         outcomes = dict(zip(joining, found, strict=True))
         previous = snapshot.head.sequence if snapshot is not None else None
         if snapshot is None:

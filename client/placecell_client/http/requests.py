@@ -397,14 +397,17 @@ class Calls:
         motion: Motion,
         if_match: str | None,
         timeout: float,
+        rigid: bool = True,
     ) -> Call[Merge]:
         """Build `POST /maps/{map}/merge`."""
-        body = {
+        body: dict[str, Any] = {
             "maps": list(maps),
             "dry_run": dry_run,
             "deduplicate": deduplicate,
             "motion": motion,
         }
+        if not rigid:  # services of earlier releases do not know it
+            body["rigid"] = False
         call = self._tied("POST", _path(merged_map, "/merge"), parsing.merge, if_match)
         # The body is small, so it is always JSON.
         return replace(

@@ -87,7 +87,7 @@ def _parameters(motion: Literal["yaw", "se3"]) -> AlignmentParameters:
     summary="Merge maps",
     response_model=MergedOut,
     responses=_NEW_RESPONSE
-    | documented(400, 401, 403, 404, 408, 409, 412, 413, 415, 422, 429, 500, 503, 504, 507),
+    | documented(400, 401, 403, 404, 408, 409, 412, 413, 415, 422, 429, 500, 501, 503, 504, 507),
     openapi_extra=json_body(MergeRequest),
 )
 async def merge(write: MapWriteOf) -> JSONResponse:
@@ -113,6 +113,7 @@ async def merge(write: MapWriteOf) -> JSONResponse:
             parameters=_parameters(asked.motion),
             deduplicate=asked.deduplicate,
             dry_run=asked.dry_run,
+            rigid=asked.rigid,
             principal=write.principal,
             conditions=write.writer.conditions,
         )

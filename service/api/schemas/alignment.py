@@ -99,6 +99,12 @@ class MergeRequest(BaseModel):
         description="Leave out segments that another map holds already, seen from the same side or "
         "with nearly the same descriptor.",
     )
+    rigid: bool = Field(
+        True,
+        strict=True,
+        description="Move each map as a whole. `false` also removes drift: the merged map is "
+        "optimized (`/optimize`) before it is written. 501 if the service has no solver.",
+    )
     motion: Literal["yaw", "se3"] = Field(
         "yaw",
         description="Degrees of freedom of the alignment: `yaw` is yaw and translation "

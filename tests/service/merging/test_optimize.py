@@ -16,7 +16,7 @@ from service.maps.sqlite.store import SqliteMapStore
 from service.maps.store import StoreError
 from service.merging import bending
 from tests.service.merging.drifting_maps import drifting_map
-from tests.service.merging.merged_map_builders import models_that_judge, put
+from tests.service.merging.merged_map_builders import merge, models_that_judge, put
 from tests.service.service_builders import assert_problem
 
 pytestmark = pytest.mark.slow  # by their sum
@@ -206,3 +206,29 @@ def test_failed_write_leaves_the_whole_old_version(
     monkeypatch.undo()
     assert service.get("/maps/block").content == before
     assert optimize(service)["sequence"] == 2
+
+
+def test_merge_that_bends_lays_drifting_maps_on_each_other(
+    service: Any, manifest: Manifest
+) -> None:
+    for seed, name in ((1, "ann"), (2, "bob")):
+        given, _ = drifting_map(manifest.model_id, seed, laps=1, robot=name, odometry=True)
+        put(service, name, given)
+    share = {}
+    for rigid in (True, False):
+        answer = merge(service, f"rigid-{rigid}", ["ann", "bob"], deduplicate=False, rigid=rigid)
+        assert answer.status_code == 201, answer.text
+        share[rigid] = doubles(content(service, f"rigid-{rigid}"))
+    assert share[False] < 0.5 * share[True]
+    again = merge(service, "rigid-False", ["ann", "bob"], deduplicate=False, rigid=False)
+    assert again.status_code == 200, again.text
+    assert doubles(content(service, "rigid-False")) < 0.5 * share[True]
+
+
+def doubles(merged: CompactMap) -> float:
+    """Return the mean distance between the captures of two robots at the same place, meters."""
+    first, second = (
+        merged.frame_positions[merged.frame_tracks == track]
+        for track in np.unique(merged.frame_tracks)  # type: ignore[arg-type]
+    )
+    return float(np.linalg.norm(first - second, axis=1).mean())
