@@ -361,8 +361,9 @@ def _support_text(own: Hypothesis, rival: Hypothesis) -> str:
     )
     both = int(np.count_nonzero(here & there))
     return (
-        f"{both} segments fit both maps, {int(np.count_nonzero(here)) - both} only this one, "
-        f"{int(np.count_nonzero(there)) - both} only that one."
+        f"Segments that fit both maps: {both}; only this one: "
+        f"{int(np.count_nonzero(here)) - both}; only that one: "
+        f"{int(np.count_nonzero(there)) - both}."
     )
 
 
