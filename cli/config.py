@@ -16,7 +16,7 @@ def config(as_json: JsonFlag = False) -> None:
     The first source that has a setting wins: the options of 'placecell serve', the environment,
     the file placecell.toml (or the file that PLACECELL_CONFIG names), the default.
     """
-    from pydantic import BaseModel
+    from pydantic import BaseModel, SecretStr
 
     from service.core.settings import (
         PREFIX,
@@ -41,6 +41,8 @@ def config(as_json: JsonFlag = False) -> None:
     def rows(model: BaseModel, inside: str, stated: dict[str, Any]) -> None:
         for name, field in type(model).model_fields.items():
             value = getattr(model, name)
+            if isinstance(value, SecretStr):
+                value = str(value)  # asterisks, if it is set
             if isinstance(value, BaseModel):
                 rows(value, f"{inside}{name}__", stated.get(name, {}))
                 continue

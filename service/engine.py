@@ -129,6 +129,7 @@ class Engine:
                 "and models_dir ('placecell config')."
             ) from error
         warm_up(self.models, limits)
+        place = "database" if settings.database.get_secret_value() else "data directory"
         with ExitStack() as opened:
             try:
                 store = opened.enter_context(open_store(settings))
@@ -137,13 +138,13 @@ class Engine:
                     store, self.models, Quotas(limits), cache, patterns=settings.maps
                 )
             except (StoreLockedError, StoreError) as error:
-                raise StartError(f"data directory: {error}") from error
+                raise StartError(f"{place}: {error}") from error
             except OSError as error:
                 raise StartError(f"data directory {settings.data_dir}: {error}") from error
             try:
                 self.annotations = Annotations(store, limits)
             except StoreError as error:
-                raise StartError(f"data directory: {error}") from error
+                raise StartError(f"{place}: {error}") from error
             self.maps.on_delete = self.annotations.forget
             self.follower: Follower | None = None
             if isinstance(store, SharedStore):

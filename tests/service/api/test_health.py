@@ -12,6 +12,7 @@ from placecell.descriptors.manifest import Manifest
 from tests.service.service_builders import assert_problem, cloud, request_of
 
 
+@pytest.mark.sqlite
 def test_health(service: Any, data_dir: Path) -> None:
     assert service.get("/livez").json() == {"status": "alive"}
     assert service.get("/readyz").json() == {"status": "ready"}

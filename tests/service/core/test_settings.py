@@ -113,3 +113,14 @@ def test_database_is_a_postgresql_url_and_never_shown() -> None:
     with pytest.raises(ValueError, match="must begin with postgresql://") as raised:
         Settings(database="mysql://ann:hidden@db/maps")  # type: ignore[arg-type]
     assert "hidden" not in str(raised.value)
+
+
+@pytest.mark.parametrize("options", [["--json"], []])
+def test_config_does_not_show_the_password_of_the_database(
+    monkeypatch: pytest.MonkeyPatch, options: list[str]
+) -> None:
+    monkeypatch.setenv("PLACECELL_DATABASE", "postgresql://ann:hidden@db/maps")
+    shown = CliRunner().invoke(app, ["config", *options])
+    assert shown.exit_code == 0, shown.output
+    assert "hidden" not in shown.output
+    assert "PLACECELL_DATABASE" in shown.output

@@ -13,6 +13,7 @@ import psycopg
 import pytest
 
 from service.core.settings import Settings
+from service.engine import StartError
 from service.maps.postgres import database, watchdog
 from service.maps.postgres.durability import durability_warnings
 from service.maps.postgres.store import PostgresStore
@@ -370,6 +371,14 @@ def test_wrong_url_is_refused() -> None:
     with pytest.raises(StoreError, match="URL of the database is invalid") as raised:
         PostgresStore("postgresql://ann:hidden@db:port:x/maps?wrong=1")
     assert "hidden" not in str(raised.value)
+
+
+def test_service_without_its_database_does_not_start(start: Any) -> None:
+    with (
+        pytest.raises(StartError, match=r"^database: PostgreSQL: the database cannot be reached"),
+        start(database="postgresql://ann:hidden@127.0.0.1:1/maps"),
+    ):
+        pass
 
 
 def test_missing_package_is_named_with_the_command(
