@@ -30,7 +30,7 @@ SOURCES = [
     for folder in (*FOLDERS, ROOT / ".github")
     for file in folder.rglob("*")
     if file.suffix in {".py", ".md", ".yaml", ".service", ".sh"}
-    and "site-packages" not in file.parts
+    and not {"site-packages", "node_modules"} & set(file.parts)
 ]
 
 
