@@ -21,6 +21,7 @@ from cli.bench.persistent import persistent
 from cli.bench.pose_tables import pose_tables
 from cli.bench.power_loss import powerloss
 from cli.bench.read import read
+from cli.bench.replicas import replicas
 from cli.bench.robot import robot
 from cli.bench.robot_faults import robot_faults
 from cli.bench.search import search
@@ -55,6 +56,7 @@ bench.command()(crash)
 bench.command()(powerloss)
 bench.command()(fleet)
 bench.command()(fleet_crash)
+bench.command()(replicas)
 bench.command()(attack)
 bench.command("json")(json_requests)
 bench.command()(read)
