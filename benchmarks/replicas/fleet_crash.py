@@ -58,6 +58,8 @@ class FleetCrashPlan:
         paused: duration of a pause of a replica, seconds.
         full: duration of a full disk, seconds.
         full_disks: number of full disks, evenly spread.
+        most_rounds: number of rounds of kills and another fault after which the run ends, even
+            before its time is over; None: no such number.
     """
 
     seconds: float = 1200.0
@@ -69,6 +71,7 @@ class FleetCrashPlan:
     paused: float = 4.0
     full: float = 3.0
     full_disks: int = 2
+    most_rounds: int | None = None
 
 
 class FleetUnderFault:
@@ -102,7 +105,9 @@ class FleetUnderFault:
             begun + self._plan.seconds * (number + 0.5) / self._plan.full_disks
             for number in range(self._plan.full_disks)
         ]
-        while time.monotonic() < until:
+        rounds = 0
+        while time.monotonic() < until and rounds != self._plan.most_rounds:
+            rounds += 1
             for _ in range(self._plan.kills):
                 self._do(self._kill_replica, robots)
             if full and time.monotonic() >= full[0]:
@@ -142,16 +147,20 @@ class FleetUnderFault:
         return "a kill of a replica"
 
     def _pause_replica(self) -> str | None:
-        self._group.wait_ready(SETTLE_SECONDS)
+        wait_for(lambda: len(self._group.ready()) > 1, SETTLE_SECONDS)
+        ready = self._group.ready()
+        if len(ready) < 2:
+            self.wrong.append(f"only {len(ready)} replicas are ready")
+            return None
         self.log.add("paused", time.monotonic())
-        self._draw.choice(self._group.replicas).pause(self._plan.paused)
+        self._draw.choice(ready).pause(self._plan.paused)
         return "a pause of a replica"
 
     def _crash_primary(self) -> str | None:
         if not self._database.wait_settled(SETTLE_SECONDS):
             self.wrong.append("the standby did not become synchronous")
             return None
-        self._group.wait_ready(SETTLE_SECONDS)
+        wait_for(lambda: len(self._group.ready()) > 1, SETTLE_SECONDS)
         self.log.add("primary", time.monotonic())
         self._database.crash_primary()
         return "a crash of the primary"
@@ -172,7 +181,7 @@ class FleetUnderFault:
             self.skipped["full_disk"] = self._database.why_no_disks
             return None
         self._database.wait_settled(SETTLE_SECONDS)
-        self._group.wait_ready(SETTLE_SECONDS)
+        wait_for(lambda: len(self._group.ready()) > 1, SETTLE_SECONDS)
         self.log.add("full_disk", time.monotonic())
         self._database.fill_disk(self._plan.full)
         return "a full disk"
@@ -238,9 +247,10 @@ def run_fleet_crash(
         starts = sorted(each for one in fleet.group.replicas for each in one.starts)
         wrong = [*faults.wrong, *fleet.group.faults, *fleet.database.faults]
         wrong += [each for robot in robots for each in robot.wrong]
-        promotions = fleet.database.promotions
+        promotions, failed_starts = fleet.database.promotions, fleet.group.failed_starts
     return _report(plan, seed, writers, readers, faults, verdict) | {
         "promotions": promotions,
+        "failed_starts": failed_starts,
         "restart_s": {"p50": round(starts[len(starts) // 2], 2), "max": round(starts[-1], 2)},
         "wrong": wrong,
         "good": is_good(verdict, readers, wrong),

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
-from threading import Lock, Thread
+from threading import Event, Lock, Thread
 
 import httpx
 
@@ -16,6 +16,12 @@ from service.child_process import Service
 
 READY_SECONDS = 120.0
 POLL_SECONDS = 0.05
+
+ATTEMPTS = 10
+"""Number of starts after which a replica that ends again and again is a fault."""
+
+PAUSE_SECONDS = 0.5
+"""Time before a replica that ended is started again, seconds."""
 
 ENVIRONMENT = {
     "PLACECELL_THREADS": "1",
@@ -106,7 +112,8 @@ class ReplicaGroup:
 
     Attributes:
         replicas: the replicas.
-        faults: description of each failed restart.
+        faults: description of each replica that could not be started again.
+        failed_starts: number of starts that ended, such as during a failover.
     """
 
     def __init__(self, folder: Path, count: int, environment: Mapping[str, str]) -> None:
@@ -114,6 +121,8 @@ class ReplicaGroup:
             Replica(folder / f"replica-{number}", environment) for number in range(1, count + 1)
         )
         self.faults: list[str] = []
+        self.failed_starts = 0
+        self._stopped = Event()
         self._restarts: list[Thread] = []
 
     def start(self) -> None:
@@ -151,6 +160,7 @@ class ReplicaGroup:
 
     def stop(self) -> None:
         """Kill all replicas."""
+        self._stopped.set()
         for replica in self.replicas:
             replica.kill()
         for thread in self._restarts:
@@ -159,7 +169,16 @@ class ReplicaGroup:
             replica.kill()
 
     def _start(self, replica: Replica) -> None:
-        try:
-            replica.start()
-        except (RuntimeError, OSError) as error:
-            self.faults.append(f"restart: {error}")
+        """Start a replica; again if it ends, as systemd and Kubernetes do."""
+        for attempt in range(1, ATTEMPTS + 1):
+            try:
+                replica.start()
+                return
+            except (RuntimeError, OSError) as error:
+                replica.kill()
+                if self._stopped.is_set():
+                    return
+                self.failed_starts += 1
+                if attempt == ATTEMPTS:
+                    self.faults.append(f"restart: {error}")
+                self._stopped.wait(PAUSE_SECONDS)

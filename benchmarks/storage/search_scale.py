@@ -55,6 +55,19 @@ class SearchScalePlan:
     repeats: int = 5
 
 
+@dataclass(frozen=True, slots=True)
+class SearchTime:
+    """Median times of one kind of search.
+
+    Attributes:
+        milliseconds: time until the result. On a machine with other work it is longer.
+        cpu_milliseconds: processor time of all threads together.
+    """
+
+    milliseconds: float
+    cpu_milliseconds: float
+
+
 def measure_search(
     sampler: DescriptorSampler,
     model: Model,
@@ -116,24 +129,31 @@ def _row(
         with on_one_core():
             alone, one = _timed(asked, model, searched, plan)
         together, every = _timed(asked, model, searched, plan)
-        row[f"ms_{count}_queries_one_core"] = round(1e3 * one, 2)
-        row[f"ms_{count}_queries"] = round(1e3 * every, 2)
-        row[f"speedup_{count}_queries"] = round(one / every, 2)
+        row[f"ms_{count}_queries_one_core"] = one.milliseconds
+        row[f"ms_{count}_queries"] = every.milliseconds
+        row[f"cpu_ms_{count}_queries_one_core"] = one.cpu_milliseconds
+        row[f"cpu_ms_{count}_queries"] = every.cpu_milliseconds
+        row[f"speedup_{count}_queries"] = round(one.milliseconds / every.milliseconds, 2)
         row[f"equal_{count}_queries"] = are_equal(alone, together)
     return row
 
 
 def _timed(
     codes: Int8, model: Model, searched: tuple[MapSnapshot, ...], plan: SearchScalePlan
-) -> tuple[NearestSegments, float]:
-    """Return the result of a search, and its median time, seconds."""
-    spent = []
+) -> tuple[NearestSegments, SearchTime]:
+    """Return the result of a search, and its times."""
+    spent, computed = [], []
     found = nearest_segments(codes, model, searched, plan.k)
     for _ in range(plan.repeats):
-        begun = time.perf_counter()
+        begun, before = time.perf_counter(), time.process_time()
         found = nearest_segments(codes, model, searched, plan.k)
         spent.append(time.perf_counter() - begun)
-    return found, float(np.median(spent))
+        computed.append(time.process_time() - before)
+    return found, SearchTime(_milliseconds(spent), _milliseconds(computed))
+
+
+def _milliseconds(seconds: Sequence[float]) -> float:
+    return round(1e3 * float(np.median(seconds)), 2)
 
 
 def are_equal(one: NearestSegments, other: NearestSegments) -> bool:
