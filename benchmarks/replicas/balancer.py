@@ -20,7 +20,7 @@ def configuration(port: int, replicas: Sequence[int]) -> str:
 
     Args:
         port: port of the balancer.
-        replicas: port of each replica.
+        replicas: port of each replica; the file has three at most.
 
     Raises:
         MissingToolError: there is no such file, because this is not a checkout.
@@ -33,12 +33,13 @@ def configuration(port: int, replicas: Sequence[int]) -> str:
     text = re.sub(r"bind :8000", f"bind 127.0.0.1:{port}", text)
     text = re.sub(r"(?m)^resolvers names\n(?: .*\n)+", "", text)
     text = text.replace(" resolvers names init-addr last,libc,none", "")
-    text = re.sub(r"(?m)^\s+server .*\n", "", text)
-    servers = [
-        f"    server replica-{number} 127.0.0.1:{each}\n"
-        for number, each in enumerate(replicas, start=1)
-    ]
-    return text + "".join(servers)
+    for number in (1, 2, 3):
+        if number <= len(replicas):
+            here = f" 127.0.0.1:{replicas[number - 1]}"
+            text = text.replace(f" replica-{number}:8000", here)
+        else:
+            text = re.sub(rf"(?m)^ +server replica-{number} .*\n", "", text)
+    return text
 
 
 @contextmanager

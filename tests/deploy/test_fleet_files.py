@@ -123,6 +123,8 @@ def test_no_privileges() -> None:
 def test_balancer_knows_the_replicas() -> None:
     servers = re.findall(r"^\s+server (\S+) (\S+):(\d+)$", HAPROXY, re.MULTILINE)
     assert servers == [(name, name, "8000") for name in REPLICAS]
+    tracked = re.findall(r"^\s+server (\S+) (\S+):8000 track replicas/(\S+)", HAPROXY, re.MULTILINE)
+    assert tracked == [(name, name, name) for name in REPLICAS]
     assert SERVICES["balancer"]["volumes"] == [
         "./haproxy.cfg:/usr/local/etc/haproxy/haproxy.cfg:ro"
     ]

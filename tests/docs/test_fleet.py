@@ -96,8 +96,10 @@ def test_commands_lead_to_three_replicas_a_failover_and_back(
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
+        status: int | None = None
         try:
-            status = shell.wait(SECONDS)
+            with suppress(subprocess.TimeoutExpired):
+                status = shell.wait(SECONDS)
         finally:
             end_session(shell.pid)
             shell.wait(30)

@@ -93,10 +93,14 @@ def balancer(replicas: list[FakeReplica], tmp_path: Path) -> Iterator[httpx.Clie
 def test_configuration_has_ports_of_this_machine() -> None:
     text = configuration(8123, [1, 2])
     assert "bind 127.0.0.1:8123" in text
-    assert re.findall(r"server (\S+) (\S+)", text)[-2:] == [
-        ("replica-1", "127.0.0.1:1"),
-        ("replica-2", "127.0.0.1:2"),
-    ]
+    assert (
+        re.findall(r"server (replica\S+) (\S+)", text)
+        == [
+            ("replica-1", "127.0.0.1:1"),
+            ("replica-2", "127.0.0.1:2"),
+        ]
+        * 2
+    )
     assert "resolvers" not in text
 
 
@@ -116,6 +120,20 @@ def test_session_stays_at_one_replica(balancer: httpx.Client, replicas: list[Fak
     for _ in range(40):
         balancer.post("/match")
     assert all(any(path == "/match" for _, path, _ in each.asked) for each in replicas)
+
+
+@pytest.mark.integration
+def test_uploads_of_a_map_stay_at_one_replica(
+    balancer: httpx.Client, replicas: list[FakeReplica]
+) -> None:
+    for name in ("yard", "hall", "dock", "site"):
+        balancer.get(f"/maps/{name}/uploads")
+        for offset in range(3):
+            balancer.put(f"/maps/{name}/uploads/abc?offset={offset}", content=b"x" * 100)
+        balancer.post(f"/maps/{name}/uploads/abc")
+    for name in ("yard", "hall", "dock", "site"):
+        counts = [sum(f"/{name}/" in path for _, path, _ in each.asked) for each in replicas]
+        assert sorted(counts) == [0, 0, 5]
 
 
 @pytest.mark.integration
