@@ -182,6 +182,8 @@ def test_B8_commands_exist_with_their_options(block: Block) -> None:
 
 @pytest.mark.parametrize("block", MARKED, ids=str)
 def test_B8_commands_that_are_not_run_exist_too(block: Block) -> None:
+    if block.reason.startswith("tests/docs/test_fleet.py runs"):
+        return
     for line in commands_of(block):
         if line.startswith("placecell "):
             check_placecell(plain(line.split("&&")[0])[1:])
