@@ -107,6 +107,10 @@ class Tracing:
     """Source of the spans of requests."""
 
     def __init__(self, provider: "TracerProvider") -> None:
+        # Imported before the first request, which would wait for it.
+        from opentelemetry.propagate import extract
+
+        self._extract = extract
         self._tracer = provider.get_tracer("placecell")
 
     def start(self, method: str, headers: Mapping[str, str], timing: Timing) -> "RequestTrace":
@@ -117,14 +121,13 @@ class Tracing:
             headers: `traceparent` and `tracestate` of the request, if it has them.
             timing: stopwatch of the request.
         """
-        from opentelemetry.propagate import extract
         from opentelemetry.trace import SpanKind
 
         # Laps are in seconds of the stopwatch's clock; spans are in Unix time.
         offset = time.time_ns() - int(1e9 * perf_counter())
         begin = offset + int(1e9 * timing.started)
         span = self._tracer.start_span(
-            method, context=extract(headers), kind=SpanKind.SERVER, start_time=begin
+            method, context=self._extract(headers), kind=SpanKind.SERVER, start_time=begin
         )
         return RequestTrace(self._tracer, span, offset)
 

@@ -224,6 +224,7 @@ def test_spans_reach_a_collector() -> None:
     thread.start()
     with pytest.MonkeyPatch.context() as patched:
         patched.setenv(ENDPOINT, f"http://127.0.0.1:{server.server_port}")
+        patched.setenv("OTEL_EXPORTER_OTLP_TIMEOUT", "1")
         try:
             with open_tracing("1.2.3") as opened:
                 assert opened is not None
