@@ -145,7 +145,7 @@ async def get_map(
     "/maps/{map}",
     summary="Delete a map",
     status_code=204,
-    responses=documented(400, 401, 403, 404, 412, 422, 429, 500, 503, 504, 507),
+    responses=documented(400, 401, 403, 404, 409, 412, 422, 429, 500, 503, 504, 507),
 )
 async def delete_map(write: MapWriteOf) -> None:
     """Delete the map with all its versions; a 2xx answer means that it is gone from the disk."""

@@ -106,7 +106,7 @@ async def edit_segments(
 @router.post(
     "/maps/{map}/age",
     summary="Remove segments that were not seen again",
-    responses=documented(400, 401, 403, 404, 412, 422, 429, 500, 503, 504, 507),
+    responses=documented(400, 401, 403, 404, 409, 412, 422, 429, 500, 503, 504, 507),
 )
 async def prune_segments(
     write: MapWriteOf,
@@ -153,7 +153,7 @@ async def reserve_ids(
 @router.post(
     "/maps/{map}/ids/reset",
     summary="Free unused ids",
-    responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504, 507),
+    responses=documented(400, 401, 403, 404, 409, 422, 429, 500, 503, 504, 507),
 )
 async def reset_ids(write: MapWriteOf) -> IdsOut:
     """Free the ids that no kept version of the map has; for administrators.

@@ -93,7 +93,7 @@ async def complete_upload(write: MapWriteOf, digest: Digest) -> Response:
     "/maps/{map}/uploads/{digest}",
     summary="Delete an incomplete upload",
     status_code=204,
-    responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504),
+    responses=documented(400, 401, 403, 404, 409, 422, 429, 500, 503, 504),
 )
 async def delete_upload(write: UploadWriteOf, digest: Digest) -> None:
     """Delete the received parts; the map is unchanged."""

@@ -106,7 +106,7 @@ async def version_delta(
 @router.post(
     "/maps/{map}/versions/{version}/restore",
     summary="Restore a version",
-    responses=documented(400, 401, 403, 404, 410, 412, 422, 429, 500, 503, 504, 507),
+    responses=documented(400, 401, 403, 404, 409, 410, 412, 422, 429, 500, 503, 504, 507),
 )
 async def restore_version(
     write: MapWriteOf,
@@ -134,7 +134,7 @@ async def restore_version(
 @router.post(
     "/maps/{map}/compact",
     summary="Drop old versions",
-    responses=documented(400, 401, 403, 404, 422, 429, 500, 503, 504, 507),
+    responses=documented(400, 401, 403, 404, 409, 422, 429, 500, 503, 504, 507),
 )
 async def compact_map(
     write: MapWriteOf,

@@ -74,7 +74,7 @@ class MirrorIn(Request):
     """Mark of a map that is a read-only copy of another service's map."""
 
     source: str = Field(
-        pattern=r"^https?://[^\s@]{1,1000}$",
+        pattern=r"^https?://[!-?A-~]{1,1000}$",
         description="URL of the map that it is a copy of, without user or password.",
     )
     etag: str = Field(

@@ -97,3 +97,16 @@ def test_mark_survives_a_restart_and_needs_a_key_of_all_robots(
         assert_problem(refused, 409, "mirrored-map")
         assert service.delete("/maps/yard/mirror", headers=ann).status_code == 403
         assert service.delete("/maps/yard/mirror", headers=fleet).status_code == 204
+
+
+def test_every_write_of_a_map_documents_the_refusal_of_a_mirror(service: Any) -> None:
+    paths = service.get("/openapi.json").json()["paths"]
+    ends = ("delete", "/maps/{map}/mirror")  # the end of a mirror is never refused
+    missing = [
+        f"{method} {path}"
+        for path, methods in paths.items()
+        for method, route in methods.items()
+        if path.startswith("/maps/{map}") and method != "get" and (method, path) != ends
+        if "409" not in route["responses"]
+    ]
+    assert missing == []

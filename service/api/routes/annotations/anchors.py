@@ -37,8 +37,8 @@ from service.maps.visibility import author_for
 
 router = APIRouter(tags=["anchors"])
 
-_WRITE = documented(400, 401, 403, 404, 408, 412, 413, 415, 422, 429, 500, 503, 504, 507)
-_REMOVE = documented(400, 401, 403, 404, 412, 422, 429, 500, 503, 504, 507)
+_WRITE = documented(400, 401, 403, 404, 408, 409, 412, 413, 415, 422, 429, 500, 503, 504, 507)
+_REMOVE = documented(400, 401, 403, 404, 409, 412, 422, 429, 500, 503, 504, 507)
 _READ = documented(400, 401, 403, 404, 422, 429, 500, 503, 504)
 
 
