@@ -6,12 +6,15 @@ pass through a street does not mix with another pass that drifted away from it.
 """
 
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from placecell.core.cancellation import current
+from placecell.core.processors import available_cores
 from placecell.core.progress import Progress, silent
 from placecell.core.spatial import evenly, within
 from placecell.core.types import Bool, Float64, Int64
@@ -164,11 +167,15 @@ def find_loops(
     """
     chosen = chosen_captures(graph, parameters) if chosen is None else chosen
     finder = _LoopFinder(graph, search, parameters, confidence or shipped())
+    context = copy_context()  # the threads find the token of the request in it
     loops: list[FoundLoop] = []
-    token = current()
-    for capture in progress(chosen.tolist(), len(chosen), "localizing captures"):
-        token.check()
-        loops += finder.loops_of(capture)
+    with ThreadPoolExecutor(available_cores(), thread_name_prefix="loops") as threads:
+        tasks = [
+            threads.submit(context.copy().run, finder.loops_of, capture)
+            for capture in chosen.tolist()
+        ]
+        for number in progress(range(len(tasks)), len(tasks), "localizing captures"):
+            loops += tasks[number].result()
     return loops
 
 
@@ -206,6 +213,7 @@ class _LoopFinder:
 
     def loops_of(self, capture: int) -> list[FoundLoop]:
         """Return the loops of a capture: one for each stretch in which it is localized."""
+        current().check()
         query = self._query(capture)
         if query is None:
             return []

@@ -232,3 +232,12 @@ def doubles(merged: CompactMap) -> float:
         for track in np.unique(merged.frame_tracks)  # type: ignore[arg-type]
     )
     return float(np.linalg.norm(first - second, axis=1).mean())
+
+
+def test_cancelled_optimization_stops_and_writes_nothing(
+    service: Any, drifting: tuple[CompactMap, np.ndarray]
+) -> None:
+    put(service, "block", drifting[0])
+    response = service.post("/maps/block/optimize", headers={"Placecell-Timeout": "0.3"})
+    assert response.status_code == 504
+    assert decode(service.get("/maps/block").content).frame_tracks is None
