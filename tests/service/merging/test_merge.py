@@ -307,6 +307,7 @@ def test_views_of_new_segments_name_a_stored_segment(
     assert alone.sum() > len(groups) > 0
 
 
+@pytest.mark.sqlite
 def test_merge_without_enough_ids_changes_nothing(
     stocked: Any, maps: dict[str, CompactMap]
 ) -> None:

@@ -192,6 +192,7 @@ def test_robot_that_writes_on_after_the_optimization_follows_its_moved_captures(
     assert np.linalg.norm(after.frame_positions[order][-1] - raw[-1]) > 0.2
 
 
+@pytest.mark.sqlite
 def test_failed_write_leaves_the_whole_old_version(
     service: Any, drifting: tuple[CompactMap, np.ndarray], monkeypatch: pytest.MonkeyPatch
 ) -> None:
