@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, get_args, get_origin
 
 from annotated_types import Ge, Gt, Le, Lt
-from pydantic import BaseModel
+from pydantic import BaseModel, SecretStr
 from pydantic.fields import FieldInfo
 
 from cli.reference.markdown import code, table
@@ -61,6 +61,7 @@ def _kind(annotation: Any) -> str:
         float: "number",
         bool: "true or false",
         str: "text",
+        SecretStr: "text, shown as ***",
         Path: "path",
         type(None): "",
     }
