@@ -18,6 +18,7 @@ from placecell_client.maps.edit import (
     take,
     with_optional,
 )
+from placecell_client.maps.union import with_odometry
 
 from tests.client.map_builders import (
     COLUMN_SETS,
@@ -36,6 +37,10 @@ WIDE = column_sets(("points",)).map(lambda names: {"extents", "seen", *PROVENANC
 def plain(compact_map: CompactMap) -> dict[int, dict[str, Any]]:
     """Return the segments by id, each as a tuple of all its values."""
     segments = {}
+    known = with_odometry(compact_map)
+    assert known.frame_tracks is not None
+    assert known.frame_odometry is not None
+    odometry = np.column_stack([known.frame_tracks, known.frame_odometry + 0.0])
     for row, key in enumerate(compact_map.ids.tolist()):
         frame = compact_map.frame_index[row]
         turn = compact_map.frame_orientations[frame].astype(float) + 0.0
@@ -47,6 +52,7 @@ def plain(compact_map: CompactMap) -> dict[int, dict[str, Any]]:
             "time": float(compact_map.frame_times[frame]),
             "position": (compact_map.frame_positions[frame] + 0.0).tolist(),
             "orientation": (turn * np.sign(last) + 0.0).tolist(),
+            "odometry": odometry[frame].tolist(),
         } | {name: getattr(compact_map, name)[row].tolist() for name in compact_map.optional}
         if compact_map.source is not None:
             segments[key]["source"] = ("", *compact_map.sources)[compact_map.source[row]]
@@ -92,6 +98,10 @@ def test_applying_a_delta_twice_changes_nothing(compact_map: CompactMap, delta: 
 @pytest.mark.slow
 @given(maps(NARROW), maps(WIDE))
 def test_difference_turns_the_old_map_into_the_new(old: CompactMap, new: CompactMap) -> None:
+    if old.has_odometry and not new.has_odometry:
+        with pytest.raises(MapFileError, match="frame_odometry: a difference cannot remove"):
+            difference(old, new)
+        new = with_odometry(new)
     changed, removed = difference(old, new)
     assert encode(apply(old, Delta(changed, removed))) == encode(new)
     before, after = plain(with_optional(old, new.optional)), plain(new)
@@ -111,6 +121,7 @@ def test_delta_between_turns_any_map_into_the_new(
     delta = delta_between(old, new, since, since + 1)
     assert encode(apply(old, delta)) == encode(new)
     is_told = not is_other_model and set(old.optional) <= set(new.optional)
+    is_told &= new.has_odometry or not old.has_odometry
     assert delta.is_whole is not (since > 0 and is_told)
     assert delta.until == since + 1
 

@@ -114,6 +114,8 @@ def test_order_of_rows_and_tables_does_not_change_the_file(
         frame_orientations=-one.frame_orientations[frames],
         sources=(one.sources[2], *one.sources[:2]),
         source=np.array([0, 2, 3, 1], np.uint16)[other.source],
+        frame_tracks=None if one.frame_tracks is None else one.frame_tracks[frames],
+        frame_odometry=None if one.frame_odometry is None else one.frame_odometry[frames],
     )
     assert encode(one) == encode(other)
 
