@@ -39,7 +39,7 @@ def optimize(
 
     The captures of the map are localized in its other parts, and move to the poses that fit
     odometry and loops best. Loops that drift does not explain are rejected. For the trajectories
-    before and after, pull both versions and export them with 'placecell export --format tum'.
+    before and after, pull both versions and export them with 'placecell export --to tum'.
     """
     with service(url) as client:
         found = client.optimize_map(
