@@ -367,10 +367,8 @@ def _unpinned(images: list[str]) -> list[str]:
     """Run pin-images.sh on a copy with a made-up registry; return the images it leaves by tag."""
     with tempfile.TemporaryDirectory(prefix="placecell-attack-") as name:
         copy = Path(name)
-        (copy / "deploy").mkdir()
-        for file in ("Dockerfile", "deploy/pin-images.sh", "deploy/compose.yaml",
-                     "deploy/kubernetes.yaml"):  # fmt: skip
-            shutil.copyfile(ROOT / file, copy / file)
+        shutil.copytree(ROOT / "deploy", copy / "deploy")
+        shutil.copyfile(ROOT / "Dockerfile", copy / "Dockerfile")
         docker = copy / "docker"
         docker.write_text(f"#!/bin/sh\necho sha256:{'0' * 64}\n")
         docker.chmod(0o755)

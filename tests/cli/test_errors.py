@@ -155,7 +155,9 @@ def test_B16_full_output_device_is_an_error() -> None:
 
 def test_B16_ctrl_c_prints_one_line() -> None:
     code = (
-        "import cli, sys, time\n"
+        "import cli, signal, sys, time\n"
+        # A shell starts programs in the background with this signal ignored.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "def wait(*_):\n    print('waits', flush=True)\n    time.sleep(60)\n"
         "sys.modules['cli.prepare'].load = wait\ncli.app()\n"
     )

@@ -48,6 +48,8 @@ _KINDS: dict[str, Trouble] = {
     "SQLITE_LOCKED": "busy",
     "SQLITE_CORRUPT": "damaged",
     "SQLITE_NOTADB": "damaged",
+    # A statement that does not fit the tables: their schema was altered.
+    "SQLITE_ERROR": "damaged",
 }
 
 

@@ -176,7 +176,7 @@ def test_content_decides_before_the_name(tmp_path: Path) -> None:
     (tmp_path / "cloud.pcd").rename(tmp_path / "cloud.txt")
     np.testing.assert_array_equal(FolderOfClouds(tmp_path / "cloud.txt").scan(0).points, POINTS)
     (tmp_path / "table.pcd").write_text("no cloud at all")
-    with pytest.raises(DriveError, match=r"table\.pcd: its PCD header"):
+    with pytest.raises(DriveError, match=r"table\.pcd: it has a PCD header without"):
         FolderOfClouds(tmp_path / "table.pcd")
 
 
