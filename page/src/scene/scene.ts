@@ -42,6 +42,7 @@ export class View {
   private readonly controls: Record<"perspective" | "above", MapControls>;
   private mode: "perspective" | "above" = "perspective";
   private budget = 300_000;
+  private wasMoving = false;
   private moving = 0;
   private lastDraw = 0;
   private scheduled = false;
@@ -296,7 +297,8 @@ export class View {
   /** While the view moves, draw as many points as fit the time; at rest draw all. */
   private draw(): void {
     const started = performance.now();
-    const moving = started - this.moving < 250;
+    // A picture may take longer than this time: then a movement since the last one tells it.
+    const moving = started - this.moving < 250 || this.moving > this.lastDraw;
     this.total = [...this.layers.values()].reduce((sum, each) => sum + each.content.ids.length, 0);
     const share = moving ? Math.min(1, this.budget / Math.max(this.total, 1)) : 1;
     this.drawn = 0;
@@ -312,10 +314,11 @@ export class View {
     // it has shown the last one, so the time between two pictures of one movement tells the effort.
     const between = started - this.lastDraw;
     this.lastDraw = started;
-    if (moving && between < 1000 && this.drawn > 1000) {
+    if (moving && this.wasMoving && this.drawn > 1000) {
       const fitting = (this.drawn * FRAME_MS) / Math.max(between, 1);
       this.budget = Math.max(20_000, 0.7 * this.budget + 0.3 * fitting);
     }
+    this.wasMoving = moving;
     this.onFrame();
     if (moving && share < 1) setTimeout(() => this.schedule(), 260);
   }
