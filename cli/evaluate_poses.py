@@ -251,9 +251,9 @@ def print_report(report: dict[str, Any]) -> None:
     for name, (low, high) in report["bounds_95"].items():
         share = report[name]
         shown = "-" if share is None else f"{share:.2%}"
-        table.add_row(name.replace("_", " "), shown, f"{low:.2%} to {high:.2%}")
+        table.add_row(_label(name), shown, f"{low:.2%} to {high:.2%}")
     for name in SHARES:
-        table.add_row(name.replace("_", " "), percent(report[name]), "")
+        table.add_row(_label(name), percent(report[name]), "")
     print_tables(table)
     beyond = report["beyond_the_map"]
     if beyond["queries"]:
@@ -272,3 +272,8 @@ def print_report(report: dict[str, Any]) -> None:
         f"deg. Time from descriptors to pose: {report['p50_ms']} ms (p50), "
         f"{report['p99_ms']} ms (p99)."
     )
+
+
+def _label(key: str) -> str:
+    """Return the words for a key of the report; early keys have British spelling."""
+    return key.replace("_", " ").replace("localised", "localized")

@@ -420,7 +420,7 @@ def test_evaluate_poses_writes_the_documented_json_keys(workshop: Path, tmp_path
     drives = [workshop / "drives" / name for name in ("robot_a", "robot_b")]
     file, plot = tmp_path / "poses.json", tmp_path / "poses.png"
     result = run("evaluate-poses", *drives, "--json", file, "--plot", plot)
-    assert "localised right" in result.output
+    assert "localized right" in result.output
     report = json.loads(file.read_text())
     assert set(report) >= POSES
     assert (report["map_drive"], report["query_drive"]) == ("robot_a", "robot_b")
