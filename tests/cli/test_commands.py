@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -47,6 +48,14 @@ def run(*words: str | Path | int, status: int = 0) -> Result:
     result = CliRunner().invoke(app, [str(word) for word in words])
     assert result.exit_code == status, result.output
     return result
+
+
+@pytest.fixture(scope="module", autouse=True)
+def short_calibration() -> Iterator[None]:
+    """Find the ranges of 8-bit activations from few segments; tests/training uses all."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("training.export.quantization.CALIBRATION_SEGMENTS", 128)
+        yield
 
 
 @pytest.fixture(scope="module")
