@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from placecell.core.types import Float64
+from town.sensing.odometry import drifted
 
 YAW_PER_PERCENT = 0.05
 """Deviation of the heading after one meter, degrees, for each percent of drift; it grows with the
@@ -45,13 +46,4 @@ class WanderingOdometry:
             errors[number] = error
         scales = 1 + self.percent / 100 * errors
         turns = np.radians(YAW_PER_PERCENT * self.percent) * np.sqrt(meters) * kicks[:, 1]
-        astray = np.concatenate([[0.0], np.cumsum(turns)])
-        turned = np.tile(np.eye(3), (len(true), 1, 1))
-        turned[:, 0, 0] = turned[:, 1, 1] = np.cos(astray)
-        turned[:, 1, 0] = np.sin(astray)
-        turned[:, 0, 1] = -turned[:, 1, 0]
-        believed = true.copy()
-        believed[:, :3, :3] = turned @ true[:, :3, :3]
-        moved = scales[:, None] * np.einsum("nij,nj->ni", turned[:-1], steps)
-        believed[1:, :3, 3] = true[0, :3, 3] + np.cumsum(moved, axis=0)
-        return believed
+        return drifted(true, scales, turns)

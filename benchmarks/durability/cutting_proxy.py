@@ -2,67 +2,38 @@
 
 import asyncio
 import random
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
-from threading import Event, Thread
+from contextlib import suppress
 from urllib.parse import urlsplit
+
+from benchmarks.durability.loopback_proxy import LoopbackProxy
 
 CHUNK_BYTES = 1 << 14
 """Largest number of bytes passed on at once."""
 
 
-@dataclass(slots=True)
-class CuttingProxy:
-    """Proxy with a fixed port, which stays the same while the service restarts.
+class CuttingProxy(LoopbackProxy):
+    """Proxy that cuts each connection after a random number of bytes.
 
     Attributes:
         draw: random generator of the cuts.
         cut_bytes: mean number of bytes until a connection is cut; None: no cuts.
         service: address of the service, such as http://127.0.0.1:8123; None: the service is down.
-        cuts: number of connections that were cut.
     """
 
-    draw: random.Random
-    cut_bytes: float | None
-    service: str | None = None
-    cuts: int = 0
-    _port: int = 0
-    _ended: asyncio.Event = field(default_factory=asyncio.Event)
+    def __init__(
+        self, draw: random.Random, cut_bytes: float | None, service: str | None = None
+    ) -> None:
+        super().__init__()
+        self.draw = draw
+        self.cut_bytes = cut_bytes
+        self.service = service
 
     @property
     def address(self) -> str:
         """Return the address of the proxy."""
-        return f"http://127.0.0.1:{self._port}"
+        return f"http://127.0.0.1:{self.port}"
 
-    @contextmanager
-    def running(self) -> Iterator[None]:
-        """Run the proxy in its own thread until the block ends."""
-        loop, listening = asyncio.new_event_loop(), Event()
-        thread = Thread(target=loop.run_until_complete, args=(self._serve(listening),))
-        thread.start()
-        listening.wait()
-        try:
-            yield
-        finally:
-            loop.call_soon_threadsafe(self._ended.set)
-            thread.join()
-            loop.close()
-
-    async def _serve(self, listening: Event) -> None:
-        server = await asyncio.start_server(self._connected, "127.0.0.1", 0)
-        self._port = server.sockets[0].getsockname()[1]
-        listening.set()
-        await self._ended.wait()
-        server.close()
-        others = asyncio.all_tasks() - {asyncio.current_task()}
-        for task in others:
-            task.cancel()
-        await asyncio.gather(*others, return_exceptions=True)
-        for _ in range(2):  # lets aborted connections close
-            await asyncio.sleep(0)
-
-    async def _connected(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    async def connected(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         writers = [writer]
         try:
             address = urlsplit(self.service or "")

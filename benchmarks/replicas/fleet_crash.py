@@ -32,7 +32,7 @@ from benchmarks.replicas.judge import is_union, lost_in, search_in, view_of
 from benchmarks.replicas.missing_tool import haproxy_program
 from benchmarks.replicas.postgres_node import USER
 from benchmarks.replicas.postgres_pair import PostgresPair
-from benchmarks.replicas.replica_group import ReplicaGroup
+from benchmarks.replicas.replica_group import Replica, ReplicaGroup
 from benchmarks.synthetic_maps.random_maps import MapTemplate
 from evaluation.machine import machine
 
@@ -134,26 +134,29 @@ class FleetUnderFault:
         self._tell(f"{time.monotonic() - after:.1f} s after {cause}, all robots are answered")
         time.sleep(self._draw.uniform(0.0, self._plan.pause))
 
-    def _kill_replica(self) -> str | None:
-        """Kill a replica if another one is ready."""
+    def _victim(self) -> Replica | None:
+        """Return a replica at random if another one is ready."""
         wait_for(lambda: len(self._group.ready()) > 1, SETTLE_SECONDS)
         ready = self._group.ready()
         if len(ready) < 2:
             self.wrong.append(f"only {len(ready)} replicas are ready")
             return None
-        victim = self._draw.choice(ready)
+        return self._draw.choice(ready)
+
+    def _kill_replica(self) -> str | None:
+        victim = self._victim()
+        if victim is None:
+            return None
         self.log.add("replica", time.monotonic())
         self._group.restart(victim)
         return "a kill of a replica"
 
     def _pause_replica(self) -> str | None:
-        wait_for(lambda: len(self._group.ready()) > 1, SETTLE_SECONDS)
-        ready = self._group.ready()
-        if len(ready) < 2:
-            self.wrong.append(f"only {len(ready)} replicas are ready")
+        victim = self._victim()
+        if victim is None:
             return None
         self.log.add("paused", time.monotonic())
-        self._draw.choice(ready).pause(self._plan.paused)
+        victim.pause(self._plan.paused)
         return "a pause of a replica"
 
     def _crash_primary(self) -> str | None:

@@ -49,16 +49,31 @@ class Odometry:
         """
         rng = np.random.default_rng([seed, 8])
         steps = np.diff(true[:, :3, 3], axis=0)
-        scale = 1 + self.scale * rng.standard_normal()
+        scales = np.full(len(steps), 1 + self.scale * rng.standard_normal())
         meters = np.linalg.norm(steps, axis=1)
         turns = np.radians(self.yaw) * np.sqrt(meters) * rng.standard_normal(len(steps))
-        astray = np.concatenate([[0.0], np.cumsum(turns)])
-        turned = np.tile(np.eye(3), (len(true), 1, 1))
-        turned[:, 0, 0] = turned[:, 1, 1] = np.cos(astray)
-        turned[:, 1, 0] = np.sin(astray)
-        turned[:, 0, 1] = -turned[:, 1, 0]
-        believed = true.copy()
-        believed[:, :3, :3] = turned @ true[:, :3, :3]
-        moved = scale * np.einsum("nij,nj->ni", turned[:-1], steps)
-        believed[1:, :3, 3] = true[0, :3, 3] + np.cumsum(moved, axis=0)
-        return believed
+        return drifted(true, scales, turns)
+
+
+def drifted(true: Float64, scales: Float64, turns: Float64) -> Float64:
+    """Integrate a motion with errors in each step.
+
+    Args:
+        true: (n, 4, 4), true transforms from the sensor to a z-up world.
+        scales: (n - 1,), factor of the length of each step.
+        turns: (n - 1,), error of the heading in each step, radians.
+
+    Returns:
+        Estimated poses, (n, 4, 4). The first one is exact.
+    """
+    steps = np.diff(true[:, :3, 3], axis=0)
+    astray = np.concatenate([[0.0], np.cumsum(turns)])
+    turned = np.tile(np.eye(3), (len(true), 1, 1))
+    turned[:, 0, 0] = turned[:, 1, 1] = np.cos(astray)
+    turned[:, 1, 0] = np.sin(astray)
+    turned[:, 0, 1] = -turned[:, 1, 0]
+    believed = true.copy()
+    believed[:, :3, :3] = turned @ true[:, :3, :3]
+    moved = scales[:, None] * np.einsum("nij,nj->ni", turned[:-1], steps)
+    believed[1:, :3, 3] = true[0, :3, 3] + np.cumsum(moved, axis=0)
+    return believed
