@@ -75,21 +75,8 @@ ROUTES = (
 )
 """Modules of the routes, in the order of the API description."""
 
-MAP_ROUTES = (
-    match,
-    localize,
-    scans,
-    coverage,
-    maps,
-    exports,
-    uploads,
-    segments,
-    versions,
-    align,
-    optimize,
-    anchors,
-)
-"""Modules whose routes read or write maps, which other services may have written."""
+WITHOUT_MAPS = (describe, mirrors, robots, events, models, health)
+"""Modules whose routes need no version of a map that another service may have written."""
 
 DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.
 
@@ -155,10 +142,10 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
         docs_pages.install(app)
     page.install(app, settings.page)
     for module in ROUTES:
-        if module in MAP_ROUTES:
+        if module in WITHOUT_MAPS:
+            app.include_router(module.router)
+        else:
             app.include_router(
                 module.router, dependencies=[Depends(caught_up)], responses=documented(422, 503)
             )
-        else:
-            app.include_router(module.router)
     return app

@@ -311,10 +311,10 @@ class MapRepository:
                 self.store.delete(head.uid, snapshot.head.mark if snapshot is not None else None)
             except KeyError as error:
                 raise OutdatedError(name) from error
-            self._usage.remove(head, snapshot)
-            self.copied_segments += len(snapshot) if snapshot is not None else 0
-            self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
-            self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
+            if snapshot is not None:
+                self.copied_segments += len(snapshot)
+                self._withdraw(snapshot)
+            self._drop_damaged(name)
         self.on_delete(head.uid)
 
     def compact(self, head: MapHead, sequence: int, file: bytes) -> MapSnapshot:
@@ -380,10 +380,7 @@ class MapRepository:
             if after is not None:
                 self._publish(after)
             elif before is not None:
-                self._usage.remove(before.head, before)
-                self._by_name = {
-                    key: kept for key, kept in self._by_name.items() if key != known.name
-                }
+                self._withdraw(before)
             return True
 
     def exchange_damaged(self, name: str, head: MapHead | None) -> None:
@@ -392,8 +389,7 @@ class MapRepository:
             self._drop_damaged(name)
             before = self._by_name.get(name)
             if before is not None:
-                self._usage.remove(before.head, before)
-                self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
+                self._withdraw(before)
             if head is not None:
                 self._damaged = self._damaged | {name: head}
                 self._usage.add(head)
@@ -407,6 +403,13 @@ class MapRepository:
         self._models.want({layers.base.model_id})
         kept = before.index if before is not None and layers.base is before.layers.base else None
         return self._index(layers, kept.base if kept is not None else None)
+
+    def _withdraw(self, snapshot: MapSnapshot) -> None:
+        """Serve a map no more, and forget which versions it had."""
+        name = snapshot.name
+        self._usage.remove(snapshot.head, snapshot)
+        self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
+        self._had.pop(name, None)
 
     def _drop_damaged(self, name: str) -> None:
         head = self._damaged.get(name)

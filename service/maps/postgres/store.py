@@ -19,7 +19,7 @@ from service.maps.postgres.tables import (
     extend,
     is_current,
 )
-from service.maps.sql.annotations import errors_in, read_annotations, write_annotations
+from service.maps.sql.annotations import errors_in, known_annotations, write_annotations
 from service.maps.sql.history import SqlHistory
 from service.maps.sql.operations import (
     append_commit,
@@ -33,7 +33,7 @@ from service.maps.sql.operations import (
 )
 from service.maps.sql.owners import Owners
 from service.maps.sql.rows import Rows
-from service.maps.sql.snapshot import SqlSnapshot
+from service.maps.sql.snapshot import SqlSnapshot, check_map
 from service.maps.sql.tables import HEAD, head_from, head_of, row_of, save_head
 from service.maps.store import (
     IDS,
@@ -192,10 +192,7 @@ class PostgresStore:
     def annotations(self) -> dict[str, list[Annotation]]:
         """Return the annotations of all maps, by uid; altered ones are logged and left out."""
         with self._database.snapshot() as rows:
-            found, errors = read_annotations(rows)
-        for error in errors:
-            logger.error("%s; it is not used", error)
-        return found
+            return known_annotations(rows)
 
     def annotate(
         self, uid: str, put: Sequence[Annotation], removed: Collection[tuple[str, str]] = ()
@@ -252,10 +249,7 @@ class PostgresStore:
     def annotations_of(self, uid: str) -> list[Annotation]:
         """Return the annotations of a map; none if there is no such map."""
         with self._database.snapshot() as rows:
-            found, errors = read_annotations(rows, uid)
-        for error in errors:
-            logger.error("%s; it is not used", error)
-        return found.get(uid, [])
+            return known_annotations(rows, uid).get(uid, [])
 
     @contextmanager
     def listen(self) -> Iterator[Callable[[float], set[str]]]:
@@ -328,7 +322,7 @@ class PostgresStore:
             heads = [head_from(row) for row in rows.execute(f"{HEAD} ORDER BY name").fetchall()]
             for head in heads:
                 try:
-                    _check_map(rows, head.uid)
+                    check_map(rows, head.uid)
                 except StoreError as error:
                     found.append(str(error))
         return found
@@ -337,17 +331,6 @@ class PostgresStore:
 def _shared(row: tuple[Any, ...]) -> SharedMap:
     """Build the state of a map from a row of `SHARED`."""
     return SharedMap(head_from(row[:-1]), row[-1])
-
-
-def _check_map(rows: Rows, uid: str) -> None:
-    """Read all of a map; StoreError if a part was altered or lost."""
-    row, head = row_of(rows, uid), head_of(rows, uid)
-    history = SqlHistory(rows, row, head)
-    history.commits()
-    history.base()
-    for _ in history.blobs(head.oldest, head.sequence):
-        pass
-    Owners(rows, row).all()
 
 
 def _locked(rows: Rows, uid: str) -> bool:

@@ -2,10 +2,13 @@
 
 import hashlib
 import json
+import logging
 from collections.abc import Collection, Iterator, Sequence
 
 from service.maps.sql.rows import Rows
 from service.maps.store import Annotation
+
+logger = logging.getLogger("placecell")
 
 
 def read_annotations(
@@ -30,6 +33,14 @@ def read_annotations(
                 "annotations"
             )
     return found, errors
+
+
+def known_annotations(rows: Rows, uid: str | None = None) -> dict[str, list[Annotation]]:
+    """Return the annotations of a map or of all, by uid; altered ones are logged and left out."""
+    found, errors = read_annotations(rows, uid)
+    for error in errors:
+        logger.error("%s; it is not used", error)
+    return found
 
 
 def write_annotations(

@@ -34,3 +34,14 @@ class SqlSnapshot:
         if errors:
             raise StoreError("damaged", errors[0])
         return found
+
+
+def check_map(rows: Rows, uid: str) -> None:
+    """Read all of a map; StoreError if a part was altered or lost."""
+    snapshot = SqlSnapshot(rows)
+    history = snapshot.history(uid)
+    history.commits()
+    history.base()
+    for _ in history.blobs(history.head.oldest, history.head.sequence):
+        pass
+    snapshot.owned_ids(uid)

@@ -26,26 +26,20 @@ def save_head(rows: Rows, row: int, head: MapHead) -> MapHead:
     rows.execute(
         "UPDATE maps SET sequence = ?, mark = ?, base = ?, next_id = ?, base_bytes = ?, "
         "log_bytes = ?, end_id = ?, digest = ? WHERE map = ?",
-        (
-            head.sequence,
-            head.mark,
-            head.oldest,
-            head.next_id,
-            head.base_bytes,
-            head.log_bytes,
-            head.end_id,
-            digest_of(head),
-            row,
-        ),
+        (*_values(head), digest_of(head), row),
     )
     return head
 
 
 def digest_of(head: MapHead) -> str:
     """Hash a map's head, so that an altered row is noticed."""
-    fields = [
-        head.name,
-        head.uid,
+    fields = [head.name, head.uid, *_values(head)]
+    return hashlib.sha256(json.dumps(fields).encode()).hexdigest()
+
+
+def _values(head: MapHead) -> tuple[int | str, ...]:
+    """Return what changes in a map's row, in the order of its columns."""
+    return (
         head.sequence,
         head.mark,
         head.oldest,
@@ -53,8 +47,7 @@ def digest_of(head: MapHead) -> str:
         head.base_bytes,
         head.log_bytes,
         head.end_id,
-    ]
-    return hashlib.sha256(json.dumps(fields).encode()).hexdigest()
+    )
 
 
 def row_of(rows: Rows, uid: str) -> int:
@@ -90,18 +83,9 @@ def commit_from(row: Sequence[Any]) -> Commit:
 def insert_map(rows: Rows, head: MapHead, history: MapHistory) -> int:
     """Add a map with all its versions; return its row number."""
     (row,) = rows.execute(
-        "INSERT INTO maps (name, uid, sequence, mark, base, next_id, base_bytes, log_bytes)"
-        " VALUES (?, ?, ?, ?, ?, ?, ?, ?) RETURNING map",
-        (
-            head.name,
-            head.uid,
-            head.sequence,
-            head.mark,
-            head.oldest,
-            head.next_id,
-            head.base_bytes,
-            head.log_bytes,
-        ),
+        "INSERT INTO maps (name, uid, sequence, mark, base, next_id, base_bytes, log_bytes, "
+        "end_id) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?) RETURNING map",
+        (head.name, head.uid, *_values(head)),
     ).fetchone()
     insert_commit(rows, row, history.commits()[0], None)
     for commit, blob in history.blobs(head.oldest, head.sequence):

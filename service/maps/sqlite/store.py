@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from service.core.files import sync_folder
-from service.maps.sql.annotations import errors_in, read_annotations, write_annotations
+from service.maps.sql.annotations import errors_in, known_annotations, write_annotations
 from service.maps.sql.history import SqlHistory
 from service.maps.sql.operations import (
     append_commit,
@@ -24,7 +24,7 @@ from service.maps.sql.operations import (
 )
 from service.maps.sql.owners import Owners
 from service.maps.sql.rows import Rows
-from service.maps.sql.snapshot import SqlSnapshot
+from service.maps.sql.snapshot import SqlSnapshot, check_map
 from service.maps.sql.tables import HEAD, head_from, head_of, row_of, save_head
 from service.maps.sqlite.data_lock import locked
 from service.maps.sqlite.database import ADVICE, Database, Layout
@@ -181,10 +181,7 @@ class SqliteMapStore:
     def annotations(self) -> dict[str, list[Annotation]]:
         """Return the annotations of all maps, by uid; altered ones are logged and left out."""
         with self._database.snapshot() as connection:
-            found, errors = read_annotations(connection)
-        for error in errors:
-            logger.error("%s; it is not used", error)
-        return found
+            return known_annotations(connection)
 
     def annotate(
         self, uid: str, put: Sequence[Annotation], removed: Collection[tuple[str, str]] = ()
@@ -275,13 +272,8 @@ class SqliteMapStore:
             found += errors_in(connection)
         for head in self.heads():
             try:
-                with self.read(head.uid) as history:
-                    history.commits()
-                    history.base()
-                    for _ in history.blobs(head.oldest, head.sequence):
-                        pass
                 with self._database.snapshot() as connection:
-                    Owners(connection, row_of(connection, head.uid)).all()
+                    check_map(connection, head.uid)
             except StoreError as error:
                 found.append(str(error))
         return found

@@ -16,9 +16,9 @@ from service.maps.store import (
     MapHead,
     Note,
     StoreError,
-    StoreSnapshot,
     skipped_ids,
 )
+from tests.service.backup.builders import content
 from tests.service.maps.test_store import behind, grown
 
 pytestmark = pytest.mark.sqlite
@@ -46,22 +46,6 @@ def fill(store: SqliteMapStore) -> MapHead:
     store.annotate(head.uid, [Annotation("tag", "wet", "true", "ann", 1.75e9)])
     store.create("shed", b"small", NOTE, 0, Ids(((0, 4),), ((0, 4),)))
     return next(each for each in store.heads() if each.name == "yard")
-
-
-def content(source: StoreSnapshot) -> dict[str, object]:
-    """Return all that a snapshot has of its maps."""
-    annotations = source.annotations()
-    return {
-        head.name: (
-            head,
-            (history := source.history(head.uid)).commits(),
-            history.base(),
-            list(history.blobs(head.oldest, head.sequence)),
-            source.owned_ids(head.uid),
-            annotations.get(head.uid),
-        )
-        for head in source.heads()
-    }
 
 
 def test_import_keeps_all_that_a_snapshot_has(store: SqliteMapStore, other: SqliteMapStore) -> None:
