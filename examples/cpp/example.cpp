@@ -151,6 +151,7 @@ void print_map(const Arguments& arguments) {
               << ",\"time\":" << json(map.times[map.capture[i]])
               << ",\"sensor\":" << json(map.positions[map.capture[i]])
               << ",\"centroid\":" << json(map.centroids[i])
+              << ",\"class\":" << (map.classes.empty() ? 0 : int{map.classes[i]})
               << ",\"codes\":" << hex(&map.codes[i * map.code_bytes], map.code_bytes) << "}\n";
 }
 

@@ -53,6 +53,7 @@ def random_map(
     }
     foreign = random.integers(0, 1 << 32, segments).astype(np.uint32)
     columns["source_ids"] = np.where(columns["source"], foreign, given.ids)
+    columns["classes"] = random.integers(0, 249, segments).astype(np.uint8)
     chosen = {name: columns[name] for name in optional}
     return replace(given, sources=SOURCES if "source" in chosen else (), **chosen)
 

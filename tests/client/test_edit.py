@@ -69,6 +69,7 @@ def applied(compact_map: CompactMap, delta: Delta) -> dict[int, dict[str, Any]]:
         defaults = {
             "extents": [0, 0, 0],
             "points": 0,
+            "classes": 0,
             "views": key,
             "seen": max(0, int(np.floor(segment["time"]))),
             "source": "",
@@ -293,6 +294,8 @@ def test_missing_columns_get_their_defaults() -> None:
     assert filled.seen is not None
     assert filled.extents.tolist() == [[0, 0, 0]] * 4
     assert filled.points.tolist() == [0] * 4
+    assert filled.classes is not None
+    assert filled.classes.tolist() == [0] * 4
     assert filled.views.tolist() == given_map.ids.tolist()
     assert filled.seen.tolist() == [0, 1, 1_700_000_000, (1 << 32) - 1]
     assert filled.source is not None

@@ -163,6 +163,7 @@ def test_provenance_without_segments_is_decoded() -> None:
         (("points",), 2, 1),
         (("views",), 4, 1),
         (("seen",), 4, 1),
+        (("classes",), 1, 1),
         (PROVENANCE, 6, 3),  # the source names are a third entry
     ],
 )
@@ -344,6 +345,8 @@ def test_source_names_and_columns_without_each_other_are_refused() -> None:
         ({"points": np.zeros(3, np.int64)}, "points"),
         ({"views": np.zeros(2, np.uint32)}, "views"),
         ({"seen": np.zeros(3)}, "seen"),
+        ({"classes": np.zeros(3, np.int64)}, "classes: int64"),
+        ({"classes": np.array([0, 249, 1], np.uint8)}, "classes: 249, expected 0 to 248"),
         ({"source": np.zeros(3, np.uint16)}, "expected both columns or neither"),
         ({"source_ids": np.zeros(3, np.uint32)}, "expected both columns or neither"),
         ({"sources": ("yard",)}, "sources: has names, but source and source_ids are missing"),

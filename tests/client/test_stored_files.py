@@ -1,14 +1,18 @@
 """Files that version 1 wrote stay readable."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from placecell_client import CompactMap, Delta, decode, decode_delta, encode, encode_delta
+from placecell_client.classes import class_names, class_probabilities
 from placecell_client.maps.edit import apply
 
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
 MAP_FILE = FIXTURES / "version-1.map"
 DELTA_FILE = FIXTURES / "version-1.delta"
+CLASSES_MAP = FIXTURES / "classes.map"
+CLASSES_DELTA = FIXTURES / "classes.delta"
 
 STORED = CompactMap(
     model_id="context-0123456789abcdef",
@@ -88,3 +92,21 @@ def test_stored_delta_applies_to_the_stored_map() -> None:
     assert after.views.tolist() == [0, 7, 9, 299, 4_294_967_295]
     assert after.seen is not None
     assert after.seen.tolist() == [1_700_000_000, 1_700_000_600, 1_700_000_600, 0, 4_294_967_295]
+
+
+def test_stored_files_with_classes_are_read() -> None:
+    data = CLASSES_MAP.read_bytes()
+    stored = decode(data)
+    assert stored.classes is not None
+    assert stored.classes.tolist() == [0, 1, 121, 248, 93]
+    assert class_names(stored.classes) == [None, "building", "vehicle", "other", "pole"]
+    assert class_probabilities(stored.classes).tolist() == [
+        0, 0, np.float32(0.9), 1, 1
+    ]  # fmt: skip
+    assert encode(replace(STORED, classes=stored.classes)) == data
+    delta = decode_delta(CLASSES_DELTA.read_bytes())
+    assert delta.changed.classes is not None
+    assert delta.changed.classes.tolist() == [35, 0]
+    after = apply(decode(MAP_FILE.read_bytes()), delta)
+    assert after.classes is not None
+    assert after.classes.tolist() == [0, 35, 0, 0, 0]

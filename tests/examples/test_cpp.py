@@ -400,6 +400,7 @@ def expected_lines(compact_map: CompactMap) -> list[Any]:
             "time": compact_map.frame_times[capture[row]],
             "sensor": compact_map.frame_positions[capture[row]].tolist(),
             "centroid": compact_map.centroids[row].tolist(),
+            "class": 0 if compact_map.classes is None else int(compact_map.classes[row]),
             "codes": compact_map.codes[row].tobytes().hex(),
         }
         for row in range(len(compact_map.ids))

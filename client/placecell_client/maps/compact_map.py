@@ -17,6 +17,9 @@ CODE_LIMIT = 65_535
 SOURCE_LIMIT = 65_535
 """Largest number of source maps; source 0 is the map itself."""
 
+CLASS_LIMIT = 248
+"""Largest byte of `classes`: the last class with the probability 1."""
+
 SEGMENT_COLUMNS = ("codes", "centroids", "ids", "robot", "frame_index")
 """Columns of every map with one row per segment."""
 FRAME_COLUMNS = ("frame_times", "frame_positions", "frame_orientations")
@@ -32,6 +35,7 @@ OPTIONAL: dict[str, tuple[type[np.unsignedinteger[Any]], tuple[int, ...]]] = {
     "seen": (np.uint32, ()),
     "source": (np.uint16, ()),
     "source_ids": (np.uint32, ()),
+    "classes": (np.uint8, ()),
 }
 """Optional columns: type, and shape of one segment's value.
 
@@ -84,6 +88,8 @@ class CompactMap:
             variance of the horizontal position along each axis, m^2, of the height, m^2, and of
             the yaw, rad^2. Three zeros: unknown variances. The pose stays as the odometry gave it
             when the captures are moved.
+        classes: Class of the segment and its probability, as `placecell_client.classes` reads them,
+            uint8 (n,); 0: unknown.
     """
 
     model_id: str
@@ -107,6 +113,7 @@ class CompactMap:
     sources: tuple[str, ...] = ()
     frame_tracks: NDArray[np.uint32] | None = None
     frame_odometry: NDArray[np.float64] | None = None
+    classes: NDArray[np.uint8] | None = None
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -148,6 +155,7 @@ class CompactMap:
         _check_texts(self)
         _check_columns(self)
         _check_values(self)
+        _check_classes(self)
         _check_provenance(self)
         _check_odometry(self)
 
@@ -226,6 +234,12 @@ def _check_values(compact_map: CompactMap) -> None:
             raise MapFileError(
                 f"{name}: index {int(column.max())}, but the table has {size} entries"
             )
+
+
+def _check_classes(compact_map: CompactMap) -> None:
+    classes = compact_map.classes
+    if classes is not None and len(classes) and int(classes.max()) > CLASS_LIMIT:
+        raise MapFileError(f"classes: {int(classes.max())}, expected 0 to {CLASS_LIMIT}")
 
 
 def _check_provenance(compact_map: CompactMap) -> None:

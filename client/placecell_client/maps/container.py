@@ -36,6 +36,7 @@ DTYPES = {
     "source": ("U16",),
     "robot": ("U8", "U16"),
     "extents": ("U8",),
+    "classes": ("U8",),
     "codes": ("I8",),
 }
 _NAMES = {

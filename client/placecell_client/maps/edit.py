@@ -36,8 +36,9 @@ __all__ = [
 def apply(compact_map: CompactMap, delta: Delta) -> CompactMap:
     """Apply a delta to a map: remove segments, and add or replace segments by id.
 
-    The result has the optional columns of both. Missing values become 0 for `extents`, `points` and
-    `source`, the segment's own id for `views` and `source_ids`, and the capture time for `seen`.
+    The result has the optional columns of both. Missing values become 0 for `extents`, `points`,
+    `classes` and `source`, the segment's own id for `views` and `source_ids`, and the capture time
+    for `seen`.
 
     Args:
         compact_map: A valid map.

@@ -66,8 +66,8 @@ def union(maps: Sequence[CompactMap], without: NDArray[np.intp] | None = None) -
 def with_optional(compact_map: CompactMap, names: Iterable[str]) -> CompactMap:
     """Add missing optional columns to a map.
 
-    Their values are 0 for `extents`, `points` and `source`, the segment's own id for `views` and
-    `source_ids`, and for `seen` the capture time, rounded down and clipped to uint32.
+    Their values are 0 for `extents`, `points`, `classes` and `source`, the segment's own id for
+    `views` and `source_ids`, and for `seen` the capture time, rounded down and clipped to uint32.
     """
     missing = [name for name in names if getattr(compact_map, name) is None]
     defaults: dict[str, Any] = {name: _default(compact_map, name) for name in missing}

@@ -38,6 +38,7 @@ struct Map {
   std::vector<std::array<std::uint8_t, 3>> extents;  // decimeters
   std::vector<std::uint16_t> points;
   std::vector<std::uint32_t> views, seen, source_ids;
+  std::vector<std::uint8_t> classes;  // 0: unknown; else 1 + 31 * class + step of 30
   std::vector<std::uint16_t> source;  // from 1 in `sources`; 0: written to this map itself
 
   std::size_t size() const { return ids.size(); }
@@ -215,6 +216,7 @@ inline Map map_of(std::string_view data) {
   if (file.has("source_ids"))
     map.source_ids = file.column<std::uint32_t>("source_ids", n, 1, {"U32"});
   if (file.has("source")) map.source = file.column<std::uint16_t>("source", n, 1, {"U16"});
+  if (file.has("classes")) map.classes = file.column<std::uint8_t>("classes", n, 1, {"U8"});
 
   map.centroids.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
