@@ -8,6 +8,8 @@ from placecell_client import CompactMap, Delta, decode, decode_delta, encode, en
 from placecell_client.classes import class_names, class_probabilities
 from placecell_client.maps.edit import apply
 
+from tests.fixtures import drifted_maps
+
 FIXTURES = Path(__file__).resolve().parents[1] / "fixtures"
 MAP_FILE = FIXTURES / "version-1.map"
 DELTA_FILE = FIXTURES / "version-1.delta"
@@ -110,3 +112,21 @@ def test_stored_files_with_classes_are_read() -> None:
     after = apply(decode(MAP_FILE.read_bytes()), delta)
     assert after.classes is not None
     assert after.classes.tolist() == [0, 35, 0, 0, 0]
+
+
+def test_stored_map_with_odometry_is_read() -> None:
+    data = (FIXTURES / drifted_maps.MAP_FILE).read_bytes()
+    stored, expected = decode(data), drifted_maps.DRIFTED
+    np.testing.assert_array_equal(stored.frame_tracks, expected.frame_tracks)
+    np.testing.assert_array_equal(stored.frame_odometry, expected.frame_odometry)
+    np.testing.assert_array_equal(stored.centroids, expected.centroids)
+    assert encode(expected) == data
+
+
+def test_stored_delta_of_an_optimization_moves_the_capture() -> None:
+    data = (FIXTURES / drifted_maps.DELTA_FILE).read_bytes()
+    delta = decode_delta(data)
+    assert (delta.since, delta.until, delta.changed.ids.tolist()) == (1, 2, [5])
+    after = apply(decode((FIXTURES / drifted_maps.MAP_FILE).read_bytes()), delta)
+    assert encode(after) == encode(drifted_maps.MOVED)
+    assert encode_delta(drifted_maps.moved_delta()) == data

@@ -15,8 +15,10 @@ from service.backup.folder import FolderTarget
 from service.backup.migration import MigrationError, migrate
 from service.backup.reading import BackupSnapshot
 from service.backup.writing import BackupWriter
+from service.maps.history import replay
 from service.maps.sqlite.store import FILE, SqliteMapStore
 from service.maps.store import MapStore
+from tests.fixtures.drifted_maps import DATABASE, MOVED
 from tests.service.annotations.test_anchors import DOCK, GEO
 from tests.service.backup.builders import (
     NOTE,
@@ -132,6 +134,16 @@ def test_maps_move_to_postgresql_and_back(
 
 
 @pytest.mark.integration
+def test_map_with_odometry_moves_to_postgresql(tmp_path: Path, postgres_database: str) -> None:
+    shutil.copy(FIXTURES / DATABASE, tmp_path / FILE)
+    migrate(str(tmp_path), postgres_database, [].append, [].append)
+    with reading(str(tmp_path)) as one, reading(postgres_database) as other:
+        assert content(one) == content(other)
+        (block,) = other.heads()
+        assert encode(replay(other.history(block.uid), 2).content()) == encode(MOVED)
+
+
+@pytest.mark.integration
 def test_import_into_postgresql_that_is_killed_leaves_the_old_maps(
     tmp_path: Path, postgres_database: str
 ) -> None:
@@ -171,7 +183,7 @@ def test_running_service_is_backed_up_at_one_moment(
         assert seen(service) == before
 
 
-@pytest.mark.parametrize("name", ["version-1.sqlite", "version-2.sqlite"])
+@pytest.mark.parametrize("name", ["version-1.sqlite", "version-2.sqlite", DATABASE])
 def test_databases_of_earlier_versions_are_backed_up_and_migrated(
     tmp_path: Path, name: str
 ) -> None:

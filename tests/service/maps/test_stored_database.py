@@ -12,6 +12,7 @@ from placecell_client import encode
 from service.maps.history import replay
 from service.maps.sqlite.store import FILE, SqliteMapStore
 from service.maps.store import Note
+from tests.fixtures import drifted_maps
 from tests.fixtures.killed_service import EXPECTED
 
 pytestmark = pytest.mark.sqlite
@@ -83,3 +84,14 @@ def test_data_of_a_killed_service_is_served(start: Any, data_dir: Path) -> None:
                 found.append([each["sequence"], each["etag"], file])
             assert found == versions
             assert service.post(f"/maps/{name}/versions/{versions[0][0]}/restore").is_success
+
+
+def test_database_of_an_optimized_map_has_both_versions(tmp_path: Path) -> None:
+    shutil.copy(FIXTURES / drifted_maps.DATABASE, tmp_path / FILE)
+    with SqliteMapStore.owned(tmp_path) as store:
+        assert store.verify() == []
+        (block,) = store.heads()
+        with store.read(block.uid) as history:
+            for sequence, content in ((1, drifted_maps.DRIFTED), (2, drifted_maps.MOVED)):
+                assert encode(replay(history, sequence).content()) == encode(content)
+            assert history.commits()[-1].note.operation == "optimize"
