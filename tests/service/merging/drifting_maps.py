@@ -19,10 +19,10 @@ SEEN = 20.0
 """Distance up to which landmarks are seen, meters."""
 
 
-def landmarks(seed: int = 0) -> tuple[Float64, Float64]:
+def landmarks(seed: int = 0, side: int = SIDE) -> tuple[Float64, Float64]:
     """Return landmarks along the block's streets, (n, 3), and their descriptors."""
     rng = np.random.default_rng(seed)
-    positions, yaws = square_path(SIDE, 1)
+    positions, yaws = square_path(side, 1)
     along = np.repeat(np.arange(len(positions)), 3)
     offsets = np.column_stack(
         [
@@ -43,6 +43,7 @@ def drifting_map(
     degrees: float = 0.1,
     robot: str = "ann",
     odometry: bool = False,
+    side: int = SIDE,
 ) -> tuple[CompactMap, Float64]:
     """Return the map of a robot that drove around the block, and its true positions (f, 3).
 
@@ -54,10 +55,11 @@ def drifting_map(
         degrees: the same of the heading.
         robot: name of the robot.
         odometry: whether the map states the odometry.
+        side: number of captures on each side of the block.
     """
     rng = np.random.default_rng(seed)
-    places, looks = landmarks()
-    true, headings = square_path(SIDE, laps)
+    places, looks = landmarks(side=side)
+    true, headings = square_path(side, laps)
     positions, yaws = drifted(true, headings, rng, meters, degrees)
     centroids, codes, frames = [], [], []
     for capture, (spot, heading) in enumerate(zip(true, headings, strict=True)):
