@@ -8,8 +8,9 @@ HASHED := $(PIP) --require-hashes --requirement
 # pip 26.2 and later do not apply PIP_CONSTRAINT to builds from source; this variable does.
 export PIP_BUILD_CONSTRAINT := $(CURDIR)/constraints.txt
 
-# Test workers; each needs a core and some 2 GB of memory. JOBS=0 runs all in one process.
-JOBS ?= 2
+# Test workers; each needs some 2 GB of memory. Three keep two cores busy, because many tests wait
+# for a process. JOBS=0 runs all in one process.
+JOBS ?= 3
 # A worker that ends by a hanging test is replaced once; the second time, the run ends.
 PYTEST := $(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile --no-loadscope-reorder \
 	--max-worker-restart 1

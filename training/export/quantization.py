@@ -11,7 +11,7 @@ import shutil
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,15 +20,22 @@ from placecell.descriptors.voxels import voxelize
 from training.data.training_set import TrainingSet
 from training.methods.networks import batches
 
+if TYPE_CHECKING:
+    from onnxruntime.quantization.calibrate import TensorsData
+
 CALIBRATION_SEGMENTS = 1024
 """Number of segments that the ranges of activations are measured on."""
 
 BATCH = 64
 """Number of segments in a calibration batch."""
 
-PERCENTS = (100.0, 99.99, 99.9, 99.8)
+PERCENTS = (99.99, 99.9, 99.8)
 """Shares of the activations within the range of an 8-bit number, percent; the others are clipped.
+All of them within it is the fourth that is tried.
 """
+
+QUANTIZED = ["Conv", "MaxPool"]
+"""Operators that compute with 8-bit numbers."""
 
 
 def quantize(network: Path, data: TrainingSet, file: Path) -> None:
@@ -51,37 +58,53 @@ def quantize(network: Path, data: TrainingSet, file: Path) -> None:
         prepared = Path(folder) / "prepared.onnx"
         quant_pre_process(str(network), str(prepared), skip_symbolic_shape=True)
         errors = {}
-        for percent in PERCENTS:
+        for percent, ranges in measure_ranges(prepared, some, Path(folder)):
             candidate = Path(folder) / f"{percent}.onnx"
-            quantize_with(prepared, some, candidate, percent)
+            quantize_with(prepared, ranges, candidate)
             errors[candidate] = float(np.square(described(candidate, some) - expected).mean())
         shutil.copyfile(min(errors, key=errors.__getitem__), file)
 
 
-def quantize_with(prepared: Path, data: TrainingSet, file: Path, percent: float) -> None:
-    """Quantize a preprocessed network, with ranges that hold `percent` of the activations."""
-    from onnxruntime.quantization import (
-        CalibrationMethod,
-        QuantFormat,
-        QuantType,
-        quantize_static,
-    )
+def measure_ranges(
+    prepared: Path, data: TrainingSet, folder: Path
+) -> Iterator[tuple[float, "TensorsData"]]:
+    """Measure the activations once; yield their ranges for each share of `PERCENTS`, with it."""
+    from onnxruntime.quantization import CalibrationMethod, create_calibrator
 
-    whole = percent == 100
-    quantize_static(
-        str(prepared),
-        str(file),
-        CalibrationBatches(data),
-        quant_format=QuantFormat.QDQ,
+    for method in (CalibrationMethod.MinMax, CalibrationMethod.Percentile):
+        calibrator = create_calibrator(
+            prepared, QUANTIZED, str(folder / "measured.onnx"), calibrate_method=method
+        )
+        calibrator.collect_data(CalibrationBatches(data))
+        if method is CalibrationMethod.MinMax:
+            yield 100.0, calibrator.compute_data()
+            continue
+        for percent in PERCENTS:
+            calibrator.collector.percentile = percent
+            yield percent, calibrator.compute_data()
+
+
+def quantize_with(prepared: Path, ranges: "TensorsData", file: Path) -> None:
+    """Quantize a preprocessed network with measured ranges of its activations."""
+    from onnxruntime.quantization import QuantType
+    from onnxruntime.quantization.qdq_quantizer import QDQQuantizer
+    from onnxruntime.quantization.quant_utils import load_model_with_shape_infer
+
+    quantizer = QDQQuantizer(
+        load_model_with_shape_infer(prepared),
         per_channel=True,
         # Weights have 7 bits, because some processors add two products in 16 bits.
         reduce_range=True,
-        activation_type=QuantType.QUInt8,
-        weight_type=QuantType.QInt8,
-        op_types_to_quantize=["Conv", "MaxPool"],
-        calibrate_method=CalibrationMethod.MinMax if whole else CalibrationMethod.Percentile,
-        extra_options={} if whole else {"CalibPercentile": percent},
+        weight_qType=QuantType.QInt8,
+        activation_qType=QuantType.QUInt8,
+        tensors_range=ranges,
+        nodes_to_quantize=[],
+        nodes_to_exclude=[],
+        op_types_to_quantize=QUANTIZED,
+        extra_options={},
     )
+    quantizer.quantize_model()
+    quantizer.model.save_model_to_file(str(file))
 
 
 def described(network: Path, data: TrainingSet) -> Float32:
