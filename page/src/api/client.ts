@@ -1,7 +1,7 @@
 // The public HTTP API. Every address is relative to the page, so it holds behind a path prefix.
 import type {
-  Alignment, KeyInfo, LocalizeAnswer, MapDetail, MapList, MapSummary, MatchAnswer, Merged, Pose, RobotState,
-  Scan, Version, Written,
+  Alignment, KeyInfo, LocalizeAnswer, MapDetail, MapList, MapSummary, MatchAnswer, Merged, Optimized, Pose,
+  RobotState, Scan, Version, Written,
 } from "./types";
 
 const KEY = "placecell-key";
@@ -107,6 +107,11 @@ export const api = {
       method: "POST",
       json: { maps, dry_run: dryRun },
       headers: etag ? { "If-Match": `"${etag}"` } : {},
+    }),
+  optimize: (name: string, etag: string, dryRun: boolean) =>
+    json<Optimized>(pathOf("maps", name, "optimize"), {
+      method: "POST", query: { dry_run: dryRun || undefined, frames: dryRun || undefined },
+      headers: { "If-Match": `"${etag}"` },
     }),
   deleteMap: async (name: string, etag: string) =>
     void (await send(pathOf("maps", name), {

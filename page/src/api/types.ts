@@ -124,6 +124,25 @@ export interface Merged {
   }[];
 }
 
+/** What an optimization moves, or would move. */
+export interface Optimized {
+  map: string;
+  sequence: number | null;
+  etag: string | null;
+  previous: number;
+  captures: number;
+  changed: number;
+  loops_found: number;
+  loops_accepted: number;
+  loops: { positions: [Vector, Vector]; verdict: string }[];
+  residual_before_m: number;
+  residual_after_m: number;
+  moved_median_m: number;
+  moved_max_m: number;
+  parts: { robots: string[]; captures: number; moved_m: number }[];
+  frames: { before: Vector; after: Vector }[];
+}
+
 export interface Candidate {
   map: string;
   id: number;

@@ -12,6 +12,15 @@ export const CLASSES = [
   "unknown", "building", "vegetation", "trunk or pole", "vehicle", "person", "fence or wall", "sign", "other",
 ];
 
+/** Place in `CLASSES` of the byte that a map stores: 0, or 1 + 31 * class + step of the probability. */
+export const classIndex = (byte: number): number => Math.ceil(byte / 31);
+
+/** Class of a segment in words, with its probability. */
+export function classWords(byte: number): string {
+  const name = CLASSES[classIndex(byte)] ?? "unknown";
+  return byte ? `${name} (${Math.round((((byte - 1) % 31) * 100) / 30)}%)` : name;
+}
+
 export interface Legend {
   color: string;
   label: string;
@@ -42,7 +51,7 @@ export function colorSegments(
   }
   if (by === "class" && map.classes) {
     const { classes } = map;
-    return kinds(CLASSES, (row) => classes[row]!);
+    return kinds(CLASSES, (row) => classIndex(classes[row]!));
   }
   if (by === "age") {
     const time = (row: number): number => Math.max(map.seen ? map.seen[row]! : 0, timeOf(map, row));

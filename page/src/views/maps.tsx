@@ -10,6 +10,7 @@ import {
 } from "../state/store";
 import { locate } from "./locate";
 import { Merge, UndoMerge } from "./merge";
+import { Optimize, UndoOptimization } from "./optimize";
 import { ago, Button, bytes, count, Dialog, FileButton } from "./parts";
 import { Versions } from "./versions";
 
@@ -47,6 +48,7 @@ export function Maps() {
       {list.value && maps.length > 0 && !shown.length && <p>No map and no robot has {wanted} in its name.</p>}
       {list.value && !maps.length && <p>There are no maps yet. A robot makes one with <code>placecell robot</code>; {mayWriteAny.value ? "or add a map file or a scan here." : "or sign in with a key that may write, and add a map file."}</p>}
       <UndoMerge />
+      <UndoOptimization />
       <ul class="maps">
         {listed.map((each) => <Entry key={each.name} map={each} />)}
         {(list.value?.damaged ?? []).map((name) => (
@@ -90,7 +92,7 @@ const FORMATS = { ply: "PLY", las: "LAS", pcd: "PCD", mcap: "MCAP (Foxglove)", g
 
 function Current(props: { map: MapSummary; inEntry?: boolean }) {
   const { map } = props;
-  const [section, setSection] = useState<"facts" | "versions" | "merge" | "prune">("facts");
+  const [section, setSection] = useState<"facts" | "versions" | "merge" | "drift" | "prune">("facts");
   const [format, setFormat] = useState("map");
   const download = async (): Promise<void> => {
     const blob = await attempt(async () => (format === "map" ? (await api.mapFile(map.name, {})).blob() : api.exportMap(map.name, format)));
@@ -117,7 +119,7 @@ function Current(props: { map: MapSummary; inEntry?: boolean }) {
   const write = mayWrite(map.name);
   const sections: [typeof section, string][] = [["facts", "Facts"], ["versions", "Versions"]];
   sections.push(["merge", write ? "Align and merge" : "Align"]);
-  if (write) sections.push(["prune", "Prune"]);
+  if (write) sections.push(["drift", "Remove drift"], ["prune", "Prune"]);
   return (
     <section class="current-map" aria-label={`Map ${map.name}`}>
       <h2 class={props.inEntry ? "hidden" : ""}>{map.name}</h2>
@@ -141,6 +143,7 @@ function Current(props: { map: MapSummary; inEntry?: boolean }) {
       )}
       {section === "versions" && <Versions key={map.etag} map={map} />}
       {section === "merge" && <Merge key={map.name} map={map} />}
+      {section === "drift" && <Optimize key={map.name} map={map} />}
       {section === "prune" && <Prune map={map} />}
     </section>
   );

@@ -4,7 +4,7 @@ import { api } from "../api/client";
 import { readCodes, timeOf, type MapContent } from "../api/map_file";
 import type { Candidate } from "../api/types";
 import { FIX } from "../scene/colors";
-import { CLASSES, moment } from "../scene/coloring";
+import { classWords, moment } from "../scene/coloring";
 import { attempt, colorBy, matched, open, recolor, scene, select, selection, type Selection } from "../state/store";
 import { Button, count, percent } from "./parts";
 
@@ -27,7 +27,7 @@ export function SegmentCard() {
     facts.push(["Size", sides.some(Boolean) ? `${sides.map((side) => side.toFixed(1)).join(" × ")} m` : "unknown"]);
   }
   if (map.points) facts.push(["Points", count(map.points[row]!)]);
-  if (map.classes) facts.push(["Class", CLASSES[map.classes[row]!] ?? "unknown"]);
+  if (map.classes) facts.push(["Class", classWords(map.classes[row]!)]);
   if (map.source) facts.push(["From map", map.sources[map.source[row]! - 1] ?? map.name]);
   if (map.views && map.views[row] !== map.ids[row]) facts.push(["Same object as", String(map.views[row])]);
   return (

@@ -9,7 +9,7 @@ import { Button, count, Dialog } from "./parts";
 import { Vector3 } from "three";
 
 const OPERATIONS: Record<string, string> = {
-  put: "stored whole", edit: "edited", merge: "merged", restore: "restored an earlier version", age: "pruned",
+  put: "stored whole", edit: "edited", merge: "merged", restore: "restored an earlier version", age: "pruned", optimize: "moved by an optimization",
 };
 
 export function Versions(props: { map: MapSummary }) {
