@@ -9,8 +9,10 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from placecell.core.types import Float64, Int64
+from placecell.datasets.labels import GROUND
 from town.geometry.mesh import Mesh
 from town.objects.block import SceneObject, Site, furnish, garden
+from town.objects.labels import all_of, labeled
 from town.objects.terrace import Terrace
 from town.objects.traffic import traffic_along
 from town.streets.gap import gap_ends
@@ -89,8 +91,8 @@ class City:
         fixed = np.random.default_rng([self.seed, 6, column, row])
         today = np.random.default_rng([self.seed, 7, column, row, traffic_seed])
         things = [*self._standing(column, row, fixed), *self._traffic(column, row, today)]
-        ground = self.ground.tile(column, row)
-        return Mesh.joined([ground, *(thing.mesh for thing in things)])
+        ground = all_of(self.ground.tile(column, row), GROUND)
+        return Mesh.joined([ground, *map(labeled, things)])
 
     def scenes(self, traffic_seed: int, reach: float) -> Tiles:
         """Return the scenes of the town, built when the sensor comes near.

@@ -5,9 +5,11 @@ from typing import Self
 
 import numpy as np
 
+from placecell.datasets.labels import GROUND
 from town.geometry.mesh import Mesh
 from town.geometry.scene import Scene, WholeTown
 from town.objects.block import SceneObject, furnish
+from town.objects.labels import all_of, labeled
 from town.objects.traffic import traffic
 from town.streets.ground import Ground
 from town.streets.plan import StreetPlan
@@ -60,7 +62,7 @@ class Town:
     def mesh(self, traffic_seed: int) -> Mesh:
         """Return the mesh of the town with the parked cars of one drive, in the town frame."""
         things = self.objects + self.traffic(traffic_seed)
-        return Mesh.joined([self.ground, *(thing.mesh for thing in things)])
+        return Mesh.joined([all_of(self.ground, GROUND), *map(labeled, things)])
 
     def scenes(self, traffic_seed: int, reach: float) -> WholeTown:  # noqa: ARG002
         """Return the scene of one drive."""

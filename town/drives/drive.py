@@ -8,6 +8,7 @@ import numpy as np
 
 from placecell.core.types import Float64
 from placecell.datasets.drive import read_table
+from placecell.datasets.labels import FOLDER, write_codes
 from placecell.segmentation.pipeline import Progress, silent
 from placecell.sources.errors import DriveError
 from placecell.trajectories.poses import as_transforms, check_rotations
@@ -49,6 +50,7 @@ def write_drive(
     lidar: Lidar = HDL_64E,
     speed: float | None = None,
     distortion: bool = False,
+    labels: bool = False,
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> Path:
@@ -83,6 +85,8 @@ def write_drive(
         lidar: simulated sensor.
         speed: speed of the robot, m/s; None for `spacing` meters in a sweep of 0.1 s.
         distortion: write raw sweeps with the time of each point.
+        labels: also write `labels/NNNNNN.label` (see `placecell.datasets.labels`), which changes no
+            other file.
         overwrite: replace the drive in the folder.
         progress: function that shows the progress.
 
@@ -107,10 +111,12 @@ def write_drive(
         sweep = route.poses(distances[scan] + swept * lidar.sweep_times(), lidar.height)
         scene = seen_from(poses[scan, :2, 3], scenes, cars, float(times[scan]))
         if distortion:
-            points = lidar.raw_scan(scene, sweep, rng, float(times[scan]))
+            points, hits = lidar.raw_scan_and_hits(scene, sweep, rng, float(times[scan]))
         else:
-            points = lidar.scan(scene, sweep, poses[scan], rng, float(times[scan]))
+            points, hits = lidar.scan_and_hits(scene, sweep, poses[scan], rng, float(times[scan]))
         (folder / "velodyne" / f"{scan:06d}.bin").write_bytes(points.astype("<f4").tobytes())
+        if labels:
+            write_codes(folder, f"{scan:06d}", scene.codes[hits])
     origin = levelled(poses[0])
     (folder / "poses.txt").write_text(matrix_lines(as_camera(poses, origin)))
     if odometry is not None:
@@ -187,8 +193,9 @@ def check(
 def clear(folder: Path) -> None:
     """Create the folder, or remove the files of the drive in it."""
     # Remove only the files of a drive, including all scans of a longer drive.
-    if (folder / "velodyne").is_dir():
-        shutil.rmtree(folder / "velodyne")
+    for scans in ("velodyne", FOLDER):
+        if (folder / scans).is_dir():
+            shutil.rmtree(folder / scans)
     for name in FILES:
         (folder / name).unlink(missing_ok=True)
     (folder / "velodyne").mkdir(parents=True)

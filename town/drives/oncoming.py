@@ -8,10 +8,15 @@ import numpy as np
 from placecell.core.types import Float64
 from town.geometry.mesh import Mesh
 from town.objects.car import car
+from town.objects.labels import all_of
 from town.streets.route import Route
 
 NEAR = 80.0
 """Largest distance of a simulated car from the sensor, meters."""
+
+
+MOVING_CAR = 252
+"""Label of the cars (`placecell.datasets.labels`)."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +58,7 @@ class Oncoming:
         count = int(rng.poisson(per_km * lane.length() / 1000))
         return cls(
             lane,
-            tuple(car(rng) for _ in range(count)),
+            tuple(all_of(car(rng), MOVING_CAR) for _ in range(count)),
             rng.uniform(0, lane.length(), size=count),
             rng.uniform(7.0, 14.0, size=count),
         )

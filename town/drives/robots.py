@@ -31,6 +31,7 @@ def two_robots(
     columns: int | None = None,
     speed: float | None = None,
     distortion: bool = False,
+    labels: bool = False,
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> tuple[Path, Path]:
@@ -51,6 +52,7 @@ def two_robots(
         columns: number of azimuth steps; None for the sensor's own.
         speed: speed of the robots, m/s; None for `spacing` meters in a sweep of 0.1 s.
         distortion: write raw sweeps with the time of each point.
+        labels: also write the class of each point.
         overwrite: replace existing drives.
         progress: function that shows the progress.
 
@@ -93,6 +95,7 @@ def two_robots(
             lidar=lidars[number],
             speed=speed,
             distortion=distortion,
+            labels=labels,
             overwrite=overwrite,
             progress=progress,
         )

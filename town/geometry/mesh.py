@@ -1,12 +1,15 @@
 """Triangle meshes of the town, which the rays are cast at."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
 
-from placecell.core.types import Float32, Float64
+from placecell.core.types import Float32, Float64, UInt16
+
+UNLABELED = np.zeros(0, dtype=np.uint16)
+"""Codes of a mesh whose triangles have no label."""
 
 
 class Reflectance:
@@ -34,10 +37,13 @@ class Mesh:
     Attributes:
         triangles: float64 (n, 3, 3), x, y, z of each corner, meters.
         reflectance: float32 (n,), 0 to 1.
+        codes: uint16 (n,), label of each triangle (`placecell.datasets.labels`); empty if the
+            triangles have none.
     """
 
     triangles: Float64
     reflectance: Float32
+    codes: UInt16 = field(default_factory=UNLABELED.copy)
 
     @classmethod
     def of_triangles(cls, triangles: Float64, reflectance: float) -> Self:
@@ -58,20 +64,31 @@ class Mesh:
         return cls(
             np.concatenate([part.triangles for part in parts]),
             np.concatenate([part.reflectance for part in parts]),
+            np.concatenate([part.labels() for part in parts])
+            if any(len(part.codes) for part in parts)
+            else UNLABELED,
         )
 
     def __len__(self) -> int:
         return len(self.triangles)
 
+    def labels(self) -> UInt16:
+        """Return the label of each triangle, uint16 (n,); 0 if it has none."""
+        return self.codes if len(self.codes) else np.zeros(len(self), dtype=np.uint16)
+
+    def coded(self, codes: UInt16) -> "Mesh":
+        """Return the mesh with a label for each triangle, uint16 (n,)."""
+        return replace(self, codes=codes)
+
     def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0, heading: float = 0.0) -> "Mesh":
         """Rotate about z by `heading` (radians, counterclockwise), then translate (meters)."""
         cosine, sine = np.cos(heading), np.sin(heading)
         turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-        return Mesh(self.triangles @ turn + (x, y, z), self.reflectance)
+        return Mesh(self.triangles @ turn + (x, y, z), self.reflectance, self.codes)
 
     def transformed(self, pose: Float64) -> "Mesh":
         """Apply a rigid transform (4, 4)."""
-        return Mesh(self.triangles @ pose[:3, :3].T + pose[:3, 3], self.reflectance)
+        return Mesh(self.triangles @ pose[:3, :3].T + pose[:3, 3], self.reflectance, self.codes)
 
     def bounds(self) -> Float64:
         """Return the lowest and the highest x, y, z, (2, 3), meters."""

@@ -6,7 +6,7 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from placecell.core.types import Float32, Float64, Int32
+from placecell.core.types import Float32, Float64, Int32, UInt16
 from town.geometry.mesh import Mesh
 
 
@@ -15,6 +15,7 @@ class Scene:
 
     def __init__(self, mesh: Mesh) -> None:
         self.reflectance: Float32 = mesh.reflectance
+        self.codes: UInt16 = mesh.labels()
         self._scene = EmbreeScene()
         # The scene borrows the mesh's buffers: both live as long as this object.
         self._mesh = TriangleMesh(self._scene, mesh.triangles.astype(np.float32))
@@ -44,6 +45,11 @@ class Surfaces(Protocol):
         """Reflectance of each triangle, float32 (n,)."""
         ...
 
+    @property
+    def codes(self) -> UInt16:
+        """Label of each triangle, uint16 (n,); 0 without a label."""
+        ...
+
     def cast(self, origins: Float32, directions: Float32) -> tuple[Float32, Int32]:
         """Cast rays and return their first hits, see `Scene.cast`."""
         ...
@@ -54,6 +60,7 @@ class Layers:
 
     def __init__(self, standing: Scene, moving: Scene) -> None:
         self.reflectance = np.concatenate([standing.reflectance, moving.reflectance])
+        self.codes = np.concatenate([standing.codes, moving.codes])
         self._standing = standing
         self._moving = moving
 

@@ -5,9 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from placecell.datasets.labels import GROUND
 from town.geometry.mesh import Mesh
 from town.geometry.scene import Scene, WholeTown
 from town.objects.block import SceneObject
+from town.objects.labels import all_of, labeled
 from town.streets.terrain import Terrain
 
 
@@ -74,7 +76,7 @@ class Place:
     def mesh(self, traffic_seed: int) -> Mesh:
         """Return the mesh of the place with the movable objects of one drive, in the town frame."""
         things = [*self.objects, *self.movables(traffic_seed)]
-        return Mesh.joined([self.ground, *(thing.mesh for thing in things)])
+        return Mesh.joined([all_of(self.ground, GROUND), *map(labeled, things)])
 
     def scenes(self, traffic_seed: int, reach: float) -> WholeTown:  # noqa: ARG002
         """Return the scene of one drive."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from placecell.core.types import Float32, Float64
+from placecell.core.types import Float32, Float64, Int32
 from town.geometry.scene import Surfaces
 
 SWEEP_SECONDS = 0.1
@@ -97,16 +97,27 @@ class Lidar:
         Returns:
             float32 (n, 4), x, y, z in the sensor frame of `pose`, meters, and reflectance, 0 to 1.
         """
+        return self.scan_and_hits(scene, sweep, pose, rng, time)[0]
+
+    def scan_and_hits(
+        self,
+        scene: Surfaces,
+        sweep: Float64,
+        pose: Float64,
+        rng: np.random.Generator,
+        time: float = 0.0,
+    ) -> tuple[Float32, Int32]:
+        """Return the points of `scan`, and the triangle that each of them lies on, int32 (n,)."""
         directions = self.directions(time)
-        kept, measured, reflectance = self._returns(scene, sweep, directions, rng)
+        kept, measured, hit = self._returns(scene, sweep, directions, rng)
         relative = np.linalg.inv(pose) @ sweep
         turned = np.matmul(directions, relative[:, :3, :3].astype(np.float32).transpose(0, 2, 1))
         column = kept // len(self.elevations)
         points = np.empty((len(column), 4), dtype=np.float32)
         points[:, :3] = turned.reshape(-1, 3)[kept] * measured[:, None]
         points[:, :3] += relative[column, :3, 3].astype(np.float32)
-        points[:, 3] = reflectance
-        return points
+        points[:, 3] = scene.reflectance[hit]
+        return points, hit
 
     def raw_scan(
         self, scene: Surfaces, sweep: Float64, rng: np.random.Generator, time: float = 0.0
@@ -125,18 +136,24 @@ class Lidar:
             float32 (n, 5): x, y, z in the sensor frame at the time of the point, meters;
             reflectance, 0 to 1; time of the point from the middle of the sweep, seconds.
         """
+        return self.raw_scan_and_hits(scene, sweep, rng, time)[0]
+
+    def raw_scan_and_hits(
+        self, scene: Surfaces, sweep: Float64, rng: np.random.Generator, time: float = 0.0
+    ) -> tuple[Float32, Int32]:
+        """Return the points of `raw_scan`, and the triangle that each lies on, int32 (n,)."""
         directions = self.directions(time)
-        kept, measured, reflectance = self._returns(scene, sweep, directions, rng)
+        kept, measured, hit = self._returns(scene, sweep, directions, rng)
         points = np.empty((len(kept), 5), dtype=np.float32)
         points[:, :3] = directions.reshape(-1, 3)[kept] * measured[:, None]
-        points[:, 3] = reflectance
+        points[:, 3] = scene.reflectance[hit]
         points[:, 4] = SWEEP_SECONDS * self.sweep_times()[kept // len(self.elevations)]
-        return points
+        return points, hit
 
     def _returns(
         self, scene: Surfaces, sweep: Float64, directions: Float32, rng: np.random.Generator
-    ) -> tuple[NDArray[np.intp], Float32, Float32]:
-        """Return the rays that return, and the measured range and reflectance of each."""
+    ) -> tuple[NDArray[np.intp], Float32, Int32]:
+        """Return the rays that return, and the measured range and the triangle of each."""
         rotations = sweep[:, :3, :3].astype(np.float32)
         cast = np.matmul(directions, rotations.transpose(0, 2, 1))
         origins = np.broadcast_to(sweep[:, None, :3, 3].astype(np.float32), cast.shape)
@@ -155,7 +172,7 @@ class Lidar:
         bright = reflectance * np.exp(-lost)
         kept &= bright * np.float32(self.range_at_tenth**2) >= np.float32(0.1) * ranges**2
         rays = np.flatnonzero(kept)
-        return rays, measured[rays].astype(np.float32, copy=False), reflectance[rays]
+        return rays, measured[rays].astype(np.float32, copy=False), hit[rays]
 
 
 HDL_64E = Lidar()
