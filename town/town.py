@@ -28,6 +28,8 @@ class Town:
         terrain: terrain that bends the plan and has the height of the ground.
         ground: carriageways, curbs and blocks, in the town frame.
         objects: houses, trees, fences and so on.
+        other_cars: whether it is another day: cars are parked in the bays that are free on the
+            first one, and in no other bay.
     """
 
     seed: int
@@ -35,6 +37,7 @@ class Town:
     terrain: Terrain
     ground: Mesh
     objects: tuple[SceneObject, ...]
+    other_cars: bool = False
 
     @classmethod
     def build(cls, seed: int, streets: tuple[int, int] = (4, 4)) -> Self:
@@ -57,7 +60,7 @@ class Town:
 
     def traffic(self, seed: int) -> tuple[SceneObject, ...]:
         """Return the parked cars and people of one drive."""
-        return tuple(traffic(self.plan, self.terrain, seed))
+        return tuple(traffic(self.plan, self.terrain, seed, other_cars=self.other_cars))
 
     def mesh(self, traffic_seed: int) -> Mesh:
         """Return the mesh of the town with the parked cars of one drive, in the town frame."""

@@ -83,7 +83,7 @@ def read_codes(drive: Drive, index: int) -> UInt16:
             f"{file}: {file.stat().st_size} bytes, expected {4 * len(points)}: 4 bytes for each of "
             f"the {len(points)} points of {drive.scan_path(index)}. Get the labels of this drive"
         )
-    return (codes[keep] & 0xFFFF).astype(np.uint16)
+    return np.asarray(codes[keep] & 0xFFFF, dtype=np.uint16)
 
 
 def write_codes(folder: Path, name: str, codes: UInt16) -> None:

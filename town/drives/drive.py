@@ -1,7 +1,7 @@
 """Writer of drives through the town, in the layout of the KITTI odometry benchmark."""
 
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +44,7 @@ def write_drive(
     traffic_seed: int,
     scans: int,
     spacing: float = 1.0,
-    noise_seed: int = 0,
+    noise_seed: int | Sequence[int] = 0,
     odometry: Odometry | None = None,
     oncoming: float = 0.0,
     lidar: Lidar = HDL_64E,
@@ -79,7 +79,7 @@ def write_drive(
         traffic_seed: seed of the parked cars and people.
         scans: number of scans.
         spacing: distance between scans along the lane, meters.
-        noise_seed: seed of sensor noise and odometry errors.
+        noise_seed: seed of sensor noise and odometry errors, or several numbers.
         odometry: errors of the odometry; None for no odometry.
         oncoming: number of oncoming cars per kilometer of the route.
         lidar: simulated sensor.
@@ -99,6 +99,7 @@ def write_drive(
             range.
     """
     check(folder, route, scans, spacing, overwrite, speed)
+    noise_seeds = [noise_seed] if isinstance(noise_seed, int) else list(noise_seed)
     cars = Oncoming.draw(route, oncoming, traffic_seed)
     clear(folder)
     distances = scan_distances(scans, spacing)
@@ -107,7 +108,7 @@ def write_drive(
     times = scan_times(scans, spacing, speed)
     swept = spacing if speed is None else speed * SWEEP_SECONDS
     for scan in progress(range(scans), scans, f"scans of {folder.name}"):
-        rng = np.random.default_rng([noise_seed, scan])
+        rng = np.random.default_rng([*noise_seeds, scan])
         sweep = route.poses(distances[scan] + swept * lidar.sweep_times(), lidar.height)
         scene = seen_from(poses[scan, :2, 3], scenes, cars, float(times[scan]))
         if distortion:
@@ -120,7 +121,7 @@ def write_drive(
     origin = levelled(poses[0])
     (folder / "poses.txt").write_text(matrix_lines(as_camera(poses, origin)))
     if odometry is not None:
-        believed = odometry.poses(poses, noise_seed)
+        believed = odometry.poses(poses, noise_seeds[0])
         (folder / ODOMETRY_FILE).write_text(matrix_lines(as_camera(believed, origin)))
     (folder / ORIGIN_FILE).write_text(matrix_lines(origin[None]))
     (folder / "calib.txt").write_text("Tr: " + matrix_lines(SENSOR_TO_CAMERA[None]))

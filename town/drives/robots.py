@@ -11,9 +11,11 @@ from town.city import City
 from town.drives.drive import check, write_drive
 from town.places.catalog import STREETS, build_place, kind_of
 from town.places.indoor.floor import DIFFERING
+from town.places.place import Place
 from town.sensing.lidar import HDL_64E, Lidar
 from town.sensing.odometry import Odometry
 from town.streets.route import Route, arc_lengths
+from town.town import Town
 
 
 def two_robots(
@@ -64,24 +66,9 @@ def two_robots(
         ValueError: There is no such place or floor, or the sensor is mounted too high for it.
     """
     kind = kind_of(place)
-    if mount is not None and mount > kind.headroom:
-        raise ValueError(
-            f"Invalid mount {mount} m: a sensor passes everywhere in the place {place!r} up to "
-            f"{kind.headroom} m."
-        )
     spacing = kind.spacing if spacing is None else spacing
-    # The inner lane of a turn is shorter than the center line.
-    town, route = build_place(place, seed, 1.08 * scans * spacing + 4.0, floor, differing)
-    if place != STREETS:
-        route = fitted(route, scans * spacing)
-    lidars = [
-        replace(
-            each,
-            columns=each.columns if columns is None else columns,
-            height=min(each.height, kind.sensor_height) if mount is None else mount,
-        )
-        for each in (lidar, other_lidar or lidar)
-    ]
+    town, route = way_through(place, seed, scans, spacing, mount, floor, differing)
+    lidars = [mounted(each, place, mount, columns) for each in (lidar, other_lidar or lidar)]
     drives = []
     for number, (name, way) in enumerate([("robot_a", route), ("robot_b", route.reversed())]):
         drive = write_drive(
@@ -101,6 +88,85 @@ def two_robots(
         )
         drives.append(drive)
     return drives[0], drives[1]
+
+
+def first_robot(
+    folder: Path,
+    seed: int,
+    scans: int,
+    *,
+    place: str = STREETS,
+    lidar: Lidar = HDL_64E,
+    labels: bool = False,
+    other_cars: bool = False,
+    progress: Progress = silent,
+) -> Path:
+    """Write `robot_a` only; the files are the same as those of `two_robots`.
+
+    Args:
+        folder: parent folder of the drive.
+        seed: seed of town, route, parked cars and noise.
+        scans: number of scans.
+        place: name of the place, see `town.places`.
+        lidar: simulated sensor.
+        labels: also write the class of each point.
+        other_cars: drive the same way on another day, when all parked cars and people changed (see
+            `Town.other_cars`), with other sensor noise.
+        progress: function that shows the progress.
+
+    Returns:
+        The folder of the drive.
+    """
+    spacing = kind_of(place).spacing
+    town, route = way_through(place, seed, scans, spacing)
+    return write_drive(
+        folder / "robot_a",
+        replace(town, other_cars=other_cars),
+        route,
+        traffic_seed=2 * seed,
+        noise_seed=[2 * seed, 1] if other_cars else 2 * seed,
+        scans=scans,
+        spacing=spacing,
+        lidar=mounted(lidar, place),
+        labels=labels,
+        progress=progress,
+    )
+
+
+def way_through(
+    place: str,
+    seed: int,
+    scans: int,
+    spacing: float,
+    mount: float | None = None,
+    floor: int = 0,
+    differing: float = DIFFERING,
+) -> tuple[Town | Place, Route]:
+    """Build a place and the route of `two_robots`, whose arguments these are.
+
+    Raises:
+        ValueError: There is no such place or floor, or the sensor is mounted too high for it.
+    """
+    kind = kind_of(place)
+    if mount is not None and mount > kind.headroom:
+        raise ValueError(
+            f"Invalid mount {mount} m: a sensor passes everywhere in the place {place!r} up to "
+            f"{kind.headroom} m."
+        )
+    # The inner lane of a turn is shorter than the center line.
+    town, route = build_place(place, seed, 1.08 * scans * spacing + 4.0, floor, differing)
+    return town, (route if place == STREETS else fitted(route, scans * spacing))
+
+
+def mounted(
+    lidar: Lidar, place: str, mount: float | None = None, columns: int | None = None
+) -> Lidar:
+    """Return a sensor as `two_robots` mounts it, whose arguments these are."""
+    return replace(
+        lidar,
+        columns=lidar.columns if columns is None else columns,
+        height=min(lidar.height, kind_of(place).sensor_height) if mount is None else mount,
+    )
 
 
 def fitted(route: Route, meters: float) -> Route:

@@ -34,7 +34,7 @@ def labeled(thing: SceneObject) -> Mesh:
     """Return the mesh of an object with the code of each triangle."""
     codes = np.full(len(thing.mesh), CODE_OF_KIND.get(thing.kind, CODES["other"][0]), np.uint16)
     if thing.kind == "tree":
-        codes[np.isin(thing.mesh.reflectance, np.float32(TRUNKS))] = CODES["pole"][1]
+        codes[np.isin(thing.mesh.reflectance, np.array(TRUNKS, np.float32))] = CODES["pole"][1]
     if thing.kind == "flower bed":
         codes[thing.mesh.reflectance == np.float32(Reflectance.WOOD)] = CODES["other"][0]
     return thing.mesh.coded(codes)

@@ -52,6 +52,8 @@ class Place:
         objects: static objects.
         spots: spots of the movable objects.
         floor: number of the floor; 0 outdoors.
+        other_cars: whether it is another day: movable objects stand at the spots that are empty on
+            the first one, and at no other spot.
     """
 
     seed: int
@@ -60,18 +62,26 @@ class Place:
     objects: tuple[SceneObject, ...]
     spots: tuple[Spot, ...]
     floor: int = 0
+    other_cars: bool = False
 
     def movables(self, traffic_seed: int) -> Iterable[SceneObject]:
         """Yield the movable objects of one drive."""
         rng = np.random.default_rng([self.seed, 21, self.floor, traffic_seed])
+        other_day = np.random.default_rng([self.seed, 31, self.floor, traffic_seed])
         for spot in self.spots:
-            if rng.random() >= spot.chance:
-                continue
-            x, y = np.add((spot.x, spot.y), rng.uniform(-spot.shift, spot.shift, size=2))
-            mesh = spot.make(rng)
-            heading = spot.heading + spot.turn * float(rng.standard_normal())
-            height = float(self.terrain.height(np.array([x, y]))) + spot.base
-            yield SceneObject(spot.kind, mesh.moved(x, y, height, heading))
+            # The first day draws the same numbers, whichever day it is.
+            standing = self._stand(spot, rng) if rng.random() < spot.chance else None
+            if self.other_cars:
+                standing = None if standing else self._stand(spot, other_day)
+            if standing:
+                yield standing
+
+    def _stand(self, spot: Spot, rng: np.random.Generator) -> SceneObject:
+        x, y = np.add((spot.x, spot.y), rng.uniform(-spot.shift, spot.shift, size=2))
+        mesh = spot.make(rng)
+        heading = spot.heading + spot.turn * float(rng.standard_normal())
+        height = float(self.terrain.height(np.array([x, y]))) + spot.base
+        return SceneObject(spot.kind, mesh.moved(x, y, height, heading))
 
     def mesh(self, traffic_seed: int) -> Mesh:
         """Return the mesh of the place with the movable objects of one drive, in the town frame."""
