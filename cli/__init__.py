@@ -14,6 +14,7 @@ from cli.drive_options import takes_drives
 from cli.errors import Commands
 from cli.evaluate import evaluate
 from cli.evaluate_poses import evaluate_poses
+from cli.evaluate_segments import evaluate_segments
 from cli.events import events
 from cli.experiments import experiments
 from cli.export import export
@@ -95,6 +96,7 @@ app.command(rich_help_panel=MAP)(export)
 app.command(rich_help_panel=MAP)(takes_drives(prepare))
 app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate))
 app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate_poses))
+app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate_segments))
 app.command(rich_help_panel=EVALUATE)(takes_drives(calibrate))
 app.command(rich_help_panel=EVALUATE)(takes_drives(study))
 app.command(rich_help_panel=TRAIN)(takes_drives(train))

@@ -151,6 +151,14 @@ def sources(texts: Iterable[str]) -> "list[Source]":
     return found
 
 
+OTHER_CARS = "+other-cars"
+
+
+def other_day(text: str) -> tuple[str, bool]:
+    """Split town:SEED:SENSOR:PLACE+other-cars into the drive and whether it is another day."""
+    return text.removesuffix(OTHER_CARS), text.endswith(OTHER_CARS)
+
+
 def parse_town(text: str) -> tuple[int, str, str]:
     """Parse town:SEED, town:SEED:SENSOR or town:SEED:SENSOR:PLACE.
 

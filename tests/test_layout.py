@@ -88,7 +88,7 @@ LAYERS = (
     ("robot.zenoh",),
     ("evaluation",),
     ("training.data",),
-    ("evaluation.recognition", "evaluation.poses"),
+    ("evaluation.recognition", "evaluation.poses", "evaluation.segments"),
     ("training.methods",),
     ("training.export",),
     ("training.experiments",),

@@ -28,6 +28,7 @@ def town(
     dropout: options.Dropout = None,
     speed: options.Speed = None,
     distortion: options.Distortion = False,
+    labels: options.Labels = False,
     meters: options.Meters = None,
     look_alikes: options.LookAlikes = 0.25,
     route: options.RouteText = "all",
@@ -76,6 +77,7 @@ def town(
                 mount=mount,
                 speed=speed,
                 distortion=distortion,
+                labels=labels,
                 overwrite=overwrite,
                 progress=show,
             )
@@ -109,6 +111,7 @@ def town(
             oncoming=oncoming,
             speed=speed,
             distortion=distortion,
+            labels=labels,
             overwrite=overwrite,
             progress=show,
         )

@@ -117,6 +117,14 @@ Distortion = Annotated[
         rich_help_panel=SENSOR,
     ),
 ]
+Labels = Annotated[
+    bool,
+    typer.Option(
+        "--labels",
+        help="Also write the class of each point, in labels/NNNNNN.label, as SemanticKITTI does. "
+        "(default: no labels)",
+    ),
+]
 Overwrite = Annotated[bool, typer.Option(help="Replace existing drives.")]
 Meters = Annotated[
     float | None,

@@ -35,13 +35,13 @@ have no class.
 GROUND = 40
 """Code of a road. The simulated town gives it to all ground."""
 
-UNKNOWN = 255
+NO_CLASS = 255
 """Class index of points and segments without a class."""
 
 
 def class_of_code() -> UInt8:
-    """Return the class index of each code, uint8 (65536,); `UNKNOWN` for codes without a class."""
-    table = np.full(1 << 16, UNKNOWN, dtype=np.uint8)
+    """Return the class index of each code, uint8 (65536,); `NO_CLASS` for codes without a class."""
+    table = np.full(1 << 16, NO_CLASS, dtype=np.uint8)
     for index, codes in enumerate(CODES.values()):
         table[list(codes)] = index
     return table

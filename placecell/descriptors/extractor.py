@@ -3,6 +3,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Any
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from placecell.core.processors import available_cores
 from placecell.core.segments import Segments
-from placecell.core.types import Float32
+from placecell.core.types import Float32, UInt8
 from placecell.descriptors.eigenvalue import FEATURES, eigenvalue_descriptors
 from placecell.descriptors.manifest import FILE, Manifest, ModelError
 from placecell.descriptors.neighborhood import describe_neighborhood
@@ -37,6 +38,20 @@ def unwatched(step: str) -> None:
     del step
 
 
+@dataclass(frozen=True, slots=True)
+class Description:
+    """Description of segments.
+
+    Attributes:
+        values: descriptors, float32 (segments, dimension).
+        classes: class and probability of each segment, uint8 (segments,)
+            (`placecell.core.segment_classes`); None if the model has no head for classes.
+    """
+
+    values: Float32
+    classes: UInt8 | None = None
+
+
 class Extractor(ABC):
     """Extractor of descriptors: prepares a model's inputs and infers descriptors from them."""
 
@@ -57,6 +72,20 @@ class Extractor(ABC):
     @abstractmethod
     def infer(self, inputs: Inputs) -> Float32:
         """Return descriptors, float32 (rows, dimension). Rows do not influence each other."""
+
+    def classify(self, inputs: Inputs, descriptors: Float32) -> UInt8 | None:
+        """Return class and probability of each row, uint8 (rows,); None without a head.
+
+        Args:
+            inputs: result of `prepare`.
+            descriptors: result of `infer` for these inputs.
+        """
+        del inputs, descriptors
+        return None
+
+    def description(self, segments: Segments, neighborhood: Float32 | None = None) -> Description:
+        """Return descriptors and classes of segments; see `describe`."""
+        return Description(self.describe(segments, neighborhood))
 
     def describe(self, segments: Segments, neighborhood: Float32 | None = None) -> Float32:
         """Return descriptors, float32 (segments, dimension).

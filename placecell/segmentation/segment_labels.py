@@ -12,7 +12,7 @@ import numpy as np
 from placecell.core.progress import Progress, silent
 from placecell.core.types import Bool, Float32, Int64, UInt8
 from placecell.datasets.drive import Drive
-from placecell.datasets.labels import CODES, UNKNOWN, class_of_code, read_codes
+from placecell.datasets.labels import CODES, NO_CLASS, class_of_code, read_codes
 from placecell.segmentation.local_map import transform
 from placecell.segmentation.recording import Recording
 
@@ -33,7 +33,7 @@ class LabeledVoxels(NamedTuple):
 
 
 def segment_classes(drive: Drive, recording: Recording, progress: Progress = silent) -> UInt8:
-    """Return the class index of each segment, uint8 (segments,); `UNKNOWN` without labels.
+    """Return the class index of each segment, uint8 (segments,); `NO_CLASS` without labels.
 
     Args:
         drive: drive with labels (`placecell.datasets.labels`).
@@ -43,7 +43,7 @@ def segment_classes(drive: Drive, recording: Recording, progress: Progress = sil
     parameters = recording.parameters
     table = class_of_code()
     window: deque[LabeledVoxels] = deque(maxlen=parameters.accumulated_scans)
-    found = np.full(len(recording.segments), UNKNOWN, dtype=np.uint8)
+    found = np.full(len(recording.segments), NO_CLASS, dtype=np.uint8)
     captures = set(recording.capture_scans)
     scans = range(len(drive)) if recording.part is None else recording.part
     owners = recording.segments.owners
@@ -53,7 +53,7 @@ def segment_classes(drive: Drive, recording: Recording, progress: Progress = sil
         codes = read_codes(drive, scan) if len(points) else np.zeros(0, np.uint16)
         classes = table[codes]
         world = transform(drive.poses[scan], points)
-        labeled = (classes != UNKNOWN) & near(points, parameters.max_range)
+        labeled = (classes != NO_CLASS) & near(points, parameters.max_range)
         window.append(
             LabeledVoxels(voxel_keys(world[labeled], parameters.map_voxel), classes[labeled])
         )
@@ -89,7 +89,7 @@ def voxel_classes(voxels: Int64, scans: "deque[LabeledVoxels]") -> UInt8:
         hit = distinct[places] == keys
         votes += np.bincount(places[hit] * len(CODES) + classes[hit], minlength=len(votes))
     counts = votes.reshape(-1, len(CODES))
-    best = np.where(counts.any(axis=1), counts.argmax(axis=1), UNKNOWN)
+    best = np.where(counts.any(axis=1), counts.argmax(axis=1), NO_CLASS)
     return best[which].astype(np.uint8)
 
 
@@ -107,4 +107,4 @@ def majority(classes: UInt8, owners: Int64, count: int) -> UInt8:
     votes = np.zeros((count, last + 1), dtype=np.int64)
     np.add.at(votes, (owners, np.minimum(classes, last)), 1)
     best = votes.argmax(axis=1)
-    return np.where(best == last, UNKNOWN, best).astype(np.uint8)
+    return np.where(best == last, NO_CLASS, best).astype(np.uint8)

@@ -200,6 +200,7 @@ def several_robots(
     oncoming: float = 0.0,
     speed: float | None = None,
     distortion: bool = False,
+    labels: bool = False,
     overwrite: bool = False,
     progress: Progress = silent,
 ) -> list[Path]:
@@ -222,6 +223,7 @@ def several_robots(
         oncoming: number of oncoming cars per kilometer.
         speed: speed of the robots, m/s; None for `spacing` meters in a sweep of 0.1 s.
         distortion: write raw sweeps with the time of each point.
+        labels: also write the class of each point.
         overwrite: replace existing drives.
         progress: function that shows the progress.
 
@@ -255,6 +257,7 @@ def several_robots(
             oncoming=oncoming,
             speed=speed,
             distortion=distortion,
+            labels=labels,
             overwrite=overwrite,
             progress=progress,
         )

@@ -1,0 +1,1 @@
+"""Evaluation of what a stored segment says: its class and its shape."""
