@@ -85,6 +85,12 @@ def read_text(file: Path, columns: tuple[str, ...] | None) -> Cloud:
         DriveError: the file has no table of points.
     """
     content = read_content(file)
+    if b"\0" in content[:HEAD] and not is_text(content[:HEAD]):
+        raise DriveError(
+            f"{file}: holds no text, although its name ends with {file.suffix or 'nothing'}; it "
+            f"begins with the bytes {content[:8].hex(' ')}. Expected a table with a point a line. "
+            "Check that the file is a point cloud, not a picture or an archive"
+        )
     check_text(file, content)
     return points_of(parse(decode(content), columns, file), file)
 

@@ -104,6 +104,14 @@ def test_utf_16_and_older_encodings_are_read(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read(file).points, POINTS)
 
 
+@pytest.mark.parametrize("name", ["photo.txt", "photo.xyz", "photo.csv"])
+def test_picture_with_the_name_of_a_table_is_told(tmp_path: Path, name: str) -> None:
+    file = tmp_path / name
+    file.write_bytes(b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR" + bytes(range(256)))
+    with pytest.raises(DriveError, match=r"89 50 4e 47 .* not a picture or an archive"):
+        read(file)
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
