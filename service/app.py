@@ -75,7 +75,7 @@ ROUTES = (
 )
 """Modules of the routes, in the order of the API description."""
 
-WITHOUT_MAPS = (describe, mirrors, robots, events, models, health)
+WITHOUT_MAPS = (describe, robots, events, models, health)
 """Modules whose routes need no version of a map that another service may have written."""
 
 DESCRIPTION = """Place recognition for robot teams: learned descriptors of 3D segments.

@@ -19,7 +19,7 @@ from placecell.core.types import UInt32
 ONCE = Retries(attempts=1)
 """Retry policy without retries: the robots repeat calls by themselves, and note each answer."""
 
-WRITE_SECONDS = 2.0
+WRITE_SECONDS = 1.5
 """Time limit of one attempt of a write, seconds."""
 
 READ_SECONDS = 1.0
@@ -89,6 +89,7 @@ class FleetRobot:
         draw: random generator of the choices.
         answers: times of its answers.
         refused: number of failed attempts, by status; `0` if there was no answer.
+        failed: monotonic time, duration in seconds and status of each failed attempt.
         wrong: description of each fault.
     """
 
@@ -97,6 +98,7 @@ class FleetRobot:
     draw: random.Random
     answers: AnswerTimes
     refused: Counter[str] = field(default_factory=Counter)
+    failed: list[tuple[float, float, str]] = field(default_factory=list)
     wrong: list[str] = field(default_factory=list)
 
     def run(self, ended: Event) -> None:
@@ -113,6 +115,11 @@ class FleetRobot:
     def pause(self, ended: Event) -> bool:
         """Wait a random time; return whether the run goes on."""
         return not ended.wait(self.draw.expovariate(1 / PAUSE_SECONDS))
+
+    def note_failure(self, begun: float, status: str) -> None:
+        """Note that an attempt failed now."""
+        self.refused[status] += 1
+        self.failed.append((begun, time.monotonic() - begun, status))
 
     def note_answer(self) -> None:
         """Note that a call succeeded now."""
@@ -181,12 +188,13 @@ class FleetWriter(FleetRobot):
     def _repeat(self, call: Callable[[], Written]) -> Written | None:
         until = time.monotonic() + GIVE_UP_SECONDS
         while time.monotonic() < until:
+            begun = time.monotonic()
             try:
                 written = call()
             except httpx.TransportError:
-                self.refused["0"] += 1
+                self.note_failure(begun, "0")
             except ServiceError as error:
-                self.refused[str(error.status)] += 1
+                self.note_failure(begun, str(error.status))
                 if error.status < 500 and error.status != 429:
                     self.wrong.append(f"{self.name}: {error}")
                     return None
@@ -226,6 +234,7 @@ class FleetReader(FleetRobot):
         is_whole = self.draw.random() < WHOLE_MAPS
         until = time.monotonic() + GIVE_UP_SECONDS
         while time.monotonic() < until:
+            begun = time.monotonic()
             try:
                 answer = self._ask(http, probe, is_whole)
                 if answer.status_code == 200:
@@ -236,12 +245,12 @@ class FleetReader(FleetRobot):
                         self.stale += 1
                         self.wrong.append(f"{self.name}: {probe} is not in an answer")
                     return True
-                self.refused[str(answer.status_code)] += 1
+                self.note_failure(begun, str(answer.status_code))
                 if answer.status_code < 500 and answer.status_code != 429:
                     self.wrong.append(f"{self.name}: {answer.status_code} {answer.text[:300]}")
                     return False
             except httpx.TransportError:
-                self.refused["0"] += 1
+                self.note_failure(begun, "0")
             time.sleep(RETRY_SECONDS)
         self.wrong.append(f"{self.name}: a read of {probe.map_name!r} was never answered")
         return False

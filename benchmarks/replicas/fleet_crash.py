@@ -9,7 +9,7 @@ import shutil
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -18,9 +18,10 @@ from typing import Any
 
 from placecell_client import Client, decode
 
-from benchmarks.replicas.availability import AnswerTimes, FaultLog, longest_gaps
+from benchmarks.replicas.availability import AnswerTimes, Fault, FaultLog, cause_of, longest_gaps
 from benchmarks.replicas.balancer import running_balancer
 from benchmarks.replicas.commit_cutter import CommitCutter
+from benchmarks.replicas.fault_schedule import FleetCrashPlan, scheduled
 from benchmarks.replicas.fleet_clients import (
     IDS,
     FleetReader,
@@ -41,37 +42,11 @@ JOIN_SECONDS = 120.0
 SETTLE_SECONDS = 60.0
 """Longest wait until every robot has an answer after a fault, seconds."""
 
+LATE_SECONDS = 300.0
+"""Time after the planned duration at which no further fault is made, seconds."""
+
 MAPS = ("site", "yard")
 """Maps that all writers share."""
-
-
-@dataclass(frozen=True, slots=True)
-class FleetCrashPlan:
-    """Extent of a run.
-
-    Attributes:
-        seconds: duration of the faults.
-        kills: number of replica kills between two of the other faults.
-        replicas: number of replicas.
-        writers, readers: number of robots.
-        pause: longest time between two faults, seconds.
-        paused: duration of a pause of a replica, seconds.
-        full: duration of a full disk, seconds.
-        full_disks: number of full disks, evenly spread.
-        most_rounds: number of rounds of kills and another fault after which the run ends, even
-            before its time is over; None: no such number.
-    """
-
-    seconds: float = 1200.0
-    kills: int = 5
-    replicas: int = 3
-    writers: int = 3
-    readers: int = 3
-    pause: float = 1.0
-    paused: float = 4.0
-    full: float = 3.0
-    full_disks: int = 2
-    most_rounds: int | None = None
 
 
 class FleetUnderFault:
@@ -97,30 +72,24 @@ class FleetUnderFault:
         self._tell = tell
 
     def run(self, robots: list[FleetRobot]) -> None:
-        """Make faults one after another until the time is over."""
-        begun = time.monotonic()
-        until = begun + self._plan.seconds
-        others = self._others()
-        full = [
-            begun + self._plan.seconds * (number + 0.5) / self._plan.full_disks
-            for number in range(self._plan.full_disks)
-        ]
-        rounds = 0
-        while time.monotonic() < until and rounds != self._plan.most_rounds:
-            rounds += 1
-            for _ in range(self._plan.kills):
-                self._do(self._kill_replica, robots)
-            if full and time.monotonic() >= full[0]:
-                full.pop(0)
-                self._do(self._fill_disk, robots)
-            self._do(next(others), robots)
+        """Make the faults of the plan, each at its time or later; end when all are made.
 
-    def _others(self) -> Iterator[Callable[[], str | None]]:
-        while True:
-            yield self._crash_primary
-            yield self._cut_commit
-            yield self._crash_primary
-            yield self._pause_replica
+        Faults that the plan leaves no time for are left out, and told.
+        """
+        faults: Mapping[str, Callable[[], str | None]] = {
+            "replica": self._kill_replica,
+            "primary": self._crash_primary,
+            "cut_commit": self._cut_commit,
+            "paused": self._pause_replica,
+            "full_disk": self._fill_disk,
+        }
+        begun = time.monotonic()
+        for number, due in enumerate(scheduled(self._plan, self._draw)):
+            if time.monotonic() > begun + self._plan.seconds + LATE_SECONDS:
+                self.wrong.append(f"only {number} faults were made in the time of the plan")
+                return
+            time.sleep(max(begun + due.seconds - time.monotonic(), 0.0))
+            self._do(faults[due.cause], robots)
 
     def _do(self, fault: Callable[[], str | None], robots: list[FleetRobot]) -> None:
         """Make one fault, and wait until every robot has an answer that it asked for later."""
@@ -132,7 +101,6 @@ class FleetUnderFault:
             silent = [each.name for each in robots if not answered(each, after)]
             self.wrong.append(f"{silent} got no answer for {SETTLE_SECONDS:.0f} s after {cause}")
         self._tell(f"{time.monotonic() - after:.1f} s after {cause}, all robots are answered")
-        time.sleep(self._draw.uniform(0.0, self._plan.pause))
 
     def _victim(self) -> Replica | None:
         """Return a replica at random if another one is ready."""
@@ -251,7 +219,7 @@ def run_fleet_crash(
         wrong = [*faults.wrong, *fleet.group.faults, *fleet.database.faults]
         wrong += [each for robot in robots for each in robot.wrong]
         promotions, failed_starts = fleet.database.promotions, fleet.group.failed_starts
-    return _report(plan, seed, writers, readers, faults, verdict) | {
+    return _report(writers, readers, faults, verdict) | {
         "promotions": promotions,
         "failed_starts": failed_starts,
         "restart_s": {"p50": round(starts[len(starts) // 2], 2), "max": round(starts[-1], 2)},
@@ -271,14 +239,11 @@ def is_good(verdict: dict[str, Any], readers: list[FleetReader], wrong: list[str
 
 
 def _report(
-    plan: FleetCrashPlan,
-    seed: int,
     writers: list[FleetWriter],
     readers: list[FleetReader],
     faults: FleetUnderFault,
     verdict: dict[str, Any],
 ) -> dict[str, Any]:
-    del plan, seed
     robots: list[FleetRobot] = [*writers, *readers]
     all_faults = faults.log.faults
     refused = sum((each.refused for each in robots), Counter[str]())
@@ -291,6 +256,7 @@ def _report(
         "maps_are_the_union": verdict["maps_are_the_union"],
         "segments": verdict["segments"],
         "longest_gap_s": longest_gaps([each.answers for each in robots], all_faults),
+        "slowest": slowest_gaps(robots, all_faults),
         "longest_read_gap_s": longest_gaps([each.answers for each in readers], all_faults),
         "faults": faults.log.counts(),
         "skipped": faults.skipped,
@@ -399,6 +365,33 @@ def scratch_folder() -> Iterator[Path]:
         yield folder
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def slowest_gaps(
+    robots: Sequence[FleetRobot], faults: Sequence[Fault], most: int = 10
+) -> list[dict[str, Any]]:
+    """Return the longest times without an answer, with the attempts that failed meanwhile."""
+    gaps = [
+        (end - begin, begin, end, each) for each in robots for begin, end in each.answers.gaps()
+    ]
+    return [
+        {
+            "robot": robot.name,
+            "seconds": round(seconds, 3),
+            "cause": cause_of(begin, end, faults),
+            "faults": [
+                {"cause": each.cause, "after_s": round(each.start - begin, 3)}
+                for each in faults
+                if begin <= each.start <= end
+            ],
+            "failed_attempts": [
+                {"after_s": round(at - begin, 3), "seconds": round(lasted, 3), "status": status}
+                for at, lasted, status in robot.failed
+                if begin <= at <= end
+            ],
+        }
+        for seconds, begin, end, robot in sorted(gaps, key=lambda gap: gap[0], reverse=True)[:most]
+    ]
 
 
 def answered(robot: FleetRobot, after: float) -> bool:

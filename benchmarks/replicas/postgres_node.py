@@ -1,4 +1,4 @@
-"""PostgreSQL server of a benchmark: a primary, or a standby that follows it."""
+"""PostgreSQL server of a benchmark or of tests: a primary, or a standby that follows it."""
 
 import os
 import shutil
@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import time
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -47,10 +48,21 @@ class PostgresNode:
         port: port on the loopback interface.
     """
 
-    def __init__(self, name: str, folder: Path) -> None:
+    def __init__(self, name: str, folder: Path, options: Mapping[str, str] = OPTIONS) -> None:
+        """Create it; it does not run yet.
+
+        Args:
+            name: name of the server; its log is NAME.log beside the folder.
+            folder: folder of the server, which the user of PostgreSQL may enter.
+            options: settings of the server.
+
+        Raises:
+            MissingToolError: PostgreSQL is not installed, or cannot run here.
+        """
         self.name = name
         self.folder = folder
         self.port = free_port()
+        self._options = options
         self._binaries = postgres_binaries()
         self._user = ordinary_user()
         self._process: subprocess.Popen[bytes] | None = None
@@ -87,7 +99,7 @@ class PostgresNode:
         Raises:
             RuntimeError: it did not start; the message holds the end of its log.
         """
-        options = OPTIONS | {"port": str(self.port)}
+        options = {**self._options, "port": str(self.port)}
         stated = [part for name, value in options.items() for part in ("-c", f"{name}={value}")]
         with (self.folder.parent / f"{self.name}.log").open("ab") as log:
             self._process = subprocess.Popen(
@@ -146,12 +158,29 @@ class PostgresNode:
                 os.kill(child, signal.SIGKILL)
         process.wait(STOP_SECONDS)
 
-    def execute(self, statement: str) -> list[tuple[object, ...]]:
-        """Run one statement as the owner; return its rows."""
+    def stop(self) -> None:
+        """Stop the server in order: it disconnects all clients."""
+        process = self._process
+        if process is not None and process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(STOP_SECONDS)
+        self.kill()
+
+    def url(self, database: str = "postgres") -> str:
+        """Return the URL of a database."""
+        return f"postgresql://{USER}@127.0.0.1:{self.port}/{database}"
+
+    def execute(self, statement: str, url: str | None = None) -> list[tuple[object, ...]]:
+        """Run one statement as the owner; return its rows.
+
+        Args:
+            statement: statement.
+            url: URL of the database; the database `postgres` unless given.
+        """
         import psycopg
 
-        url = f"postgresql://{USER}@127.0.0.1:{self.port}/postgres"
-        with psycopg.connect(url, autocommit=True, connect_timeout=5) as connection:
+        with psycopg.connect(url or self.url(), autocommit=True, connect_timeout=5) as connection:
             connection.execute("SET statement_timeout = '10s'")
             cursor = connection.execute(statement.encode())
             return cursor.fetchall() if cursor.description else []

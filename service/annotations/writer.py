@@ -110,6 +110,7 @@ class AnnotationWriter:
             self._check_author(before)
             self.annotations.write(snapshot, self.principal.name, [], [(NAMED, anchor)])
 
+    @on_newest
     def set_mirror(self, name: str, source: str, etag: str) -> MirrorMark:
         """Mark a map as a copy of another service's map.
 
@@ -134,6 +135,7 @@ class AnnotationWriter:
             assert after is not None  # it was written
             return after
 
+    @on_newest
     def remove_mirror(self, name: str) -> None:
         """Make a mirror a map of this service, which takes writes; 404 if it is none."""
         self.principal.check_all()

@@ -20,9 +20,17 @@ Start = Callable[..., AbstractContextManager[TestClient]]
 
 
 @pytest.fixture(autouse=ON_POSTGRES)
-def on_postgres(postgres_database: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def on_postgres(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Keeps the maps of the test in a database of its own."""
-    monkeypatch.setenv("PLACECELL_DATABASE", postgres_database)
+    server = request.getfixturevalue("postgres_server")
+    url = server.create_database_with_tables()
+    monkeypatch.setenv("PLACECELL_DATABASE", url)
+    # The server of the tests is not durable, on purpose. Tests of the log expect no such warning.
+    monkeypatch.setattr("service.maps.postgres.store.durability_warnings", lambda _: ())
+    try:
+        yield
+    finally:
+        server.drop_database(url)
 
 
 @pytest.fixture(scope="session")

@@ -99,7 +99,7 @@ def test_configuration_has_ports_of_this_machine() -> None:
             ("replica-1", "127.0.0.1:1"),
             ("replica-2", "127.0.0.1:2"),
         ]
-        * 2
+        * 3
     )
     assert "resolvers" not in text
 
@@ -186,6 +186,11 @@ def test_replica_that_is_not_ready_or_gone_gets_no_requests(
             break
         assert time.monotonic() < until
         time.sleep(0.1)
+    # The sessions and the uploads of maps that belonged to them move.
+    for number in range(8):
+        robot = {"Placecell-Session": f"robot-{number}"}
+        assert balancer.post("/localize", headers=robot).status_code == 200
+        assert balancer.get(f"/maps/map-{number}/uploads").status_code == 200
     replicas[0].is_ready = True
     while not replicas[0].asked:
         assert balancer.post("/match").status_code == 200

@@ -34,6 +34,10 @@ from tests.service.service_builders import edit_of, map_of, random_codes
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 
 
+ON_SQLITE: dict[str, Any] = {"database": ""}
+"""Settings of a service whose maps are in its data directory, whatever store other tests use."""
+
+
 def write(service: Any, manifest: Manifest) -> None:
     """Store maps with versions, a merge, tags, anchors and reserved ids."""
     for name, robot in (("yard", "ann"), ("hall", "zoe")):
@@ -95,13 +99,13 @@ MOVES = [moved_by_backup, moved_by_migration]
 def test_moved_service_shows_the_same_bytes_and_etags(
     start: Any, manifest: Manifest, data_dir: Path, tmp_path: Path, move: Callable[..., None]
 ) -> None:
-    with start() as service:
+    with start(**ON_SQLITE) as service:
         write(service, manifest)
         before = seen(service)
         given = service.post("/maps/yard/ids?count=1").json()
     assert len(before) > 20
     move(str(data_dir), str(tmp_path / "other"), tmp_path / "copy")
-    with start(data_dir=tmp_path / "other") as service:
+    with start(data_dir=tmp_path / "other", **ON_SQLITE) as service:
         assert seen(service) == before
         later = service.post("/maps/yard/ids?count=1").json()
     assert later["first"] > given["first"]
@@ -118,7 +122,7 @@ def test_maps_move_to_postgresql_and_back(
     postgres_database: str,
     move: Callable[..., None],
 ) -> None:
-    with start() as service:
+    with start(**ON_SQLITE) as service:
         write(service, manifest)
         before = seen(service)
     move(str(data_dir), postgres_database, tmp_path / "there")
@@ -126,7 +130,7 @@ def test_maps_move_to_postgresql_and_back(
         assert seen(service) == before
         later = service.post("/maps/yard/ids?count=1").json()
     move(postgres_database, str(tmp_path / "other"), tmp_path / "back")
-    with start(data_dir=tmp_path / "other") as service:
+    with start(data_dir=tmp_path / "other", **ON_SQLITE) as service:
         assert seen(service) == before
         assert service.post("/maps/yard/ids?count=1").json()["first"] > later["first"]
     with pytest.raises(ValueError, match=r"has (other maps|maps already)"):
@@ -169,7 +173,7 @@ def test_import_into_postgresql_that_is_killed_leaves_the_old_maps(
 def test_running_service_is_backed_up_at_one_moment(
     start: Any, manifest: Manifest, data_dir: Path, tmp_path: Path
 ) -> None:
-    with start() as service:
+    with start(**ON_SQLITE) as service:
         write(service, manifest)
         before = seen(service)
         with reading(str(data_dir)) as maps:
@@ -179,7 +183,7 @@ def test_running_service_is_backed_up_at_one_moment(
             BackupWriter(FolderTarget(tmp_path / "copy")).write(maps, "1.0", 1.8e9)
     with writing(str(tmp_path / "other")) as store:
         store.import_maps(BackupSnapshot(FolderTarget(tmp_path / "copy")))
-    with start(data_dir=tmp_path / "other") as service:
+    with start(data_dir=tmp_path / "other", **ON_SQLITE) as service:
         assert seen(service) == before
 
 

@@ -244,6 +244,20 @@ def test_map_created_at_two_services_has_one_content(
     assert_problem(edit(other, manifest, 10), 404, "unknown-map")
 
 
+def test_map_of_another_service_becomes_a_mirror(
+    replica: Start, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(following.Follower, "_work", lambda self: None)
+    one, other = replica("a"), replica("b")
+    put(one, manifest, rows=0)
+    source = {"source": "https://hq.example/maps/yard"}
+    assert other.put("/maps/yard/mirror", json=source).is_success
+    seen = {"Placecell-Seen": f"yard {tag(one.get('/maps/yard'))}"}
+    # The mark of the other service is loaded before the write is checked.
+    assert one.delete("/maps/yard/mirror", headers=seen).status_code == 204
+    assert_problem(other.delete("/maps/yard/mirror"), 404, "not-a-mirror")
+
+
 def test_latest_reads_need_no_token(
     replica: Start, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
