@@ -140,7 +140,8 @@ def test_maps_move_to_postgresql_and_back(
 @pytest.mark.integration
 def test_map_with_odometry_moves_to_postgresql(tmp_path: Path, postgres_database: str) -> None:
     shutil.copy(FIXTURES / DATABASE, tmp_path / FILE)
-    migrate(str(tmp_path), postgres_database, [].append, [].append)
+    counts: list[int] = []
+    migrate(str(tmp_path), postgres_database, counts.append, counts.append)
     with reading(str(tmp_path)) as one, reading(postgres_database) as other:
         assert content(one) == content(other)
         (block,) = other.heads()
