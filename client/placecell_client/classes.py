@@ -17,6 +17,19 @@ STEPS = 30
 """Steps of the probability between 0 and 1."""
 
 
+def packed(name: str, probability: float) -> int:
+    """Return the byte of a class and its probability, 0 to 1.
+
+    Raises:
+        ValueError: The name is not a class, or the probability is out of range.
+    """
+    if name not in CLASSES:
+        raise ValueError(f"Invalid class {name!r:.40}: expected {', '.join(CLASSES)}.")
+    if not 0 <= probability <= 1:
+        raise ValueError(f"Invalid probability {probability}: expected 0 to 1.")
+    return 1 + (STEPS + 1) * CLASSES.index(name) + round(STEPS * probability)
+
+
 def class_names(classes: NDArray[np.uint8]) -> list[str | None]:
     """Return the name of each segment's class; None for unknown."""
     names = (*CLASSES, None)

@@ -5,6 +5,8 @@ probability, step / 30. `placecell_client.classes` reads the same bytes.
 """
 
 from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -82,6 +84,58 @@ def is_class(codes: UInt8, names: Iterable[str]) -> Bool:
     return known[class_indices(codes)]
 
 
+def most_probable(one: UInt8, other: UInt8) -> UInt8:
+    """Return the more probable of two classes of each segment; of equals, the first."""
+    is_more = class_probabilities(other) > class_probabilities(one)
+    return np.where(is_more | ((one == UNKNOWN) & (other != UNKNOWN)), other, one)
+
+
 def movable(codes: UInt8) -> Bool:
     """Return whether each segment has a class that may stand elsewhere tomorrow."""
     return is_class(codes, MOVABLE)
+
+
+@dataclass(frozen=True, slots=True)
+class ClassFilter:
+    """Filter of segments by their class. Equal filters keep the same segments.
+
+    Attributes:
+        kept: names of the classes to keep.
+        keeps_unknown: whether to keep segments without a class.
+    """
+
+    kept: frozenset[str]
+    keeps_unknown: bool
+
+    @classmethod
+    def of(cls, classes: Iterable[str] | None, ignore: Iterable[str] = ()) -> Self | None:
+        """Return the filter of a request; None if it keeps all segments.
+
+        Args:
+            classes: names of the classes to keep. None: all, and segments without a class.
+            ignore: names of the classes to leave out; `movable` names `MOVABLE`. A segment without
+                a class is never left out by it.
+
+        Raises:
+            ValueError: a name is not a class.
+        """
+        wanted = frozenset(CLASSES if classes is None else classes)
+        unwanted = {each for name in ignore for each in (MOVABLE if name == "movable" else (name,))}
+        for name in sorted(wanted | unwanted):
+            if name not in CLASSES:
+                names = ", ".join(CLASSES)
+                extra = ", or movable" if name in unwanted else ""
+                raise ValueError(f"Invalid class {name!r:.40}. Expected {names}{extra}.")
+        if classes is None and not unwanted:
+            return None
+        return cls(wanted - unwanted, classes is None)
+
+    def keeps(self, codes: UInt8) -> Bool:
+        """Return whether to keep each segment of a map."""
+        if self.keeps_unknown:
+            return ~is_class(codes, frozenset(CLASSES) - self.kept)
+        return is_class(codes, self.kept)
+
+    def keeps_query(self, codes: UInt8) -> Bool:
+        """Return whether to search for each segment of a request; unknown ones always are."""
+        return np.asarray((codes == UNKNOWN) | is_class(codes, self.kept))

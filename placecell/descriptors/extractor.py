@@ -56,6 +56,8 @@ class Extractor(ABC):
     """Extractor of descriptors: prepares a model's inputs and infers descriptors from them."""
 
     manifest: Manifest
+    has_classes = False
+    """Whether the model has a semantic head, so that `classify` returns classes."""
 
     @abstractmethod
     def prepare(

@@ -5,6 +5,8 @@ from typing import Any
 
 from scipy.spatial.transform import Rotation
 
+from placecell.core.segment_classes import class_names, class_probabilities
+from placecell.core.types import UInt8
 from placecell.descriptors.site_calibration import SiteCalibration
 from placecell.localization import Pose
 from service.annotations.annotations import MapAnnotations, MirrorMark, StoredGeoAnchor
@@ -29,6 +31,16 @@ def segment_error(error: SegmentError) -> dict[str, Any]:
             "detail": error.detail,
         }
     }
+
+
+def listed_classes(classes: UInt8) -> list[dict[str, Any] | None]:
+    """Return the class of each segment, as a `ClassOut`; None for unknown."""
+    return [
+        None if name is None else {"name": name, "probability": probability}
+        for name, probability in zip(
+            class_names(classes), class_probabilities(classes).round(3).tolist(), strict=True
+        )
+    ]
 
 
 def skipped_maps(selection: MapSelection) -> list[dict[str, str]]:

@@ -116,6 +116,9 @@ def edit_with(
         points=np.array([min(len(cloud), MOST_POINTS) for cloud in clouds], np.uint16)
         if before is None or before.points is not None
         else None,
+        classes=descriptors.classes[usable]
+        if descriptors.classes is not None and (before is None or before.classes is not None)
+        else None,
     )
     return Delta(changed, np.zeros(0, np.uint32))
 

@@ -3,13 +3,15 @@
 Segments that cannot be described are left out, each with the reason.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
+import anyio.to_thread
 import numpy as np
 from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
-from placecell.core.types import Float32, Float64, Int8, Int64
+from placecell.core.segment_classes import UNKNOWN, ClassFilter, class_names
+from placecell.core.types import Float32, Float64, Int8, Int64, UInt8
 from placecell.descriptors.extractor import Extractor, Inputs
 from placecell.descriptors.manifest import Manifest
 from service.core.cost import NOTHING, Cost, check_cost, cost_of_describing
@@ -68,6 +70,8 @@ class Descriptors:
             where there is an error; None if they are not known.
         errors: reason for each segment without a descriptor, by index.
         dropped_points: points of the request that were not finite and were left out.
+        classes: class of each segment as `segment_classes` packs it, uint8 (n,); None if the model
+            has no semantic head, or the request states no classes.
     """
 
     model_id: str
@@ -76,6 +80,7 @@ class Descriptors:
     centroids: Float64 | None
     errors: dict[int, SegmentError]
     dropped_points: int = 0
+    classes: UInt8 | None = None
 
     def __len__(self) -> int:
         return len(self.codes)
@@ -90,6 +95,20 @@ class Descriptors:
         has_descriptor[list(self.errors)] = False
         return np.flatnonzero(has_descriptor)
 
+    def searched(self, wanted: ClassFilter | None) -> Self:
+        """Return the descriptors without the segments of classes that a request leaves out."""
+        if wanted is None or self.classes is None:
+            return self
+        left_out = np.flatnonzero(~wanted.keeps_query(self.classes))
+        names = class_names(self.classes[left_out])
+        errors = {
+            index: SegmentError(
+                "ignored-class", f"The segment has the class {name}, which the request leaves out."
+            )
+            for index, name in zip(left_out.tolist(), names, strict=True)
+        }
+        return replace(self, errors=errors | self.errors)
+
     @classmethod
     def of_usable(
         cls,
@@ -98,6 +117,7 @@ class Descriptors:
         centroids: Float64,
         errors: dict[int, SegmentError],
         dropped_points: int,
+        classes: UInt8 | None = None,
     ) -> Self:
         """Build from the segments that have a descriptor, in order, and the errors of the others.
 
@@ -107,6 +127,7 @@ class Descriptors:
             centroids: float64 (rows, 3).
             errors: by index of the segment.
             dropped_points: points that were left out.
+            classes: uint8 (rows,).
         """
         codes = manifest.quantizer.encode(values)
         if errors:
@@ -115,7 +136,8 @@ class Descriptors:
             codes = _spread(codes, usable, count, 0)
             values = _spread(values, usable, count, np.nan)
             centroids = _spread(centroids, usable, count, np.nan)
-        return cls(manifest.model_id, codes, values, centroids, errors, dropped_points)
+            classes = None if classes is None else _spread(classes, usable, count, UNKNOWN)
+        return cls(manifest.model_id, codes, values, centroids, errors, dropped_points, classes)
 
 
 class Describer:
@@ -173,13 +195,21 @@ class Describer:
         Raises:
             Problem: 422 if no descriptor is finite.
         """
-        return self._described(prepared, await self._batcher.infer(prepared.inputs, timing))
+        values = await self._batcher.infer(prepared.inputs, timing)
+        if not self._extractor.has_classes:
+            return self._described(prepared, values, None)
+        classes = await anyio.to_thread.run_sync(self._extractor.classify, prepared.inputs, values)
+        timing.lap("infer")
+        return self._described(prepared, values, classes)
 
     def describe_alone(self, prepared: PreparedScan) -> Descriptors:
         """Describe a prepared scan in this thread, without an event loop; raises as `describe`."""
-        return self._described(prepared, self._extractor.infer(prepared.inputs))
+        values = self._extractor.infer(prepared.inputs)
+        return self._described(prepared, values, self._extractor.classify(prepared.inputs, values))
 
-    def _described(self, prepared: PreparedScan, values: Float32) -> Descriptors:
+    def _described(
+        self, prepared: PreparedScan, values: Float32, classes: UInt8 | None
+    ) -> Descriptors:
         is_finite = np.isfinite(values).all(axis=1)
         errors = prepared.errors | {
             index: SegmentError("not-describable", "The model's descriptor is not finite.")
@@ -193,6 +223,7 @@ class Describer:
             centroids=prepared.centroids[is_finite],
             errors=errors,
             dropped_points=prepared.dropped_points,
+            classes=None if classes is None else classes[is_finite],
         )
 
     def _check_amount(self, scan: Scan) -> None:

@@ -11,10 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from placecell_client.classes import packed
 from placecell_client.hints import UsedHints
 from placecell_client.http.encoding import loads, row_of
 from placecell_client.http.response import HttpResponse
 from placecell_client.maps import delta_file, map_file
+from placecell_client.maps.compact_map import CLASS_LIMIT
 from placecell_client.maps.delta_file import Delta, decode_delta
 from placecell_client.replica import ChangesPage
 from placecell_client.results.alignment import MapAlignment, alignment_of
@@ -86,7 +88,24 @@ def description(answer: HttpResponse, count: int, dropped: int = 0) -> Descripti
         centroids,
         _errors(items),
         dropped + _dropped(content),
+        _classes(content.get("classes"), count),
     )
+
+
+def _classes(given: Any, count: int) -> NDArray[np.uint8] | None:
+    """Return the classes of `count` segments, from bytes or JSON; None if there are none."""
+    if given is None:
+        return None
+    if isinstance(given, bytes):
+        classes = np.frombuffer(given, np.uint8).copy()
+    else:
+        classes = np.array(
+            [0 if each is None else packed(each["name"], each["probability"]) for each in given],
+            np.uint8,
+        )
+    if len(classes) != count or (count and classes.max() > CLASS_LIMIT):
+        raise ValueError(f"The classes are not {count} bytes of 0 to {CLASS_LIMIT}")
+    return classes
 
 
 def matches(answer: HttpResponse, count: int, dropped: int = 0) -> Matches:

@@ -35,6 +35,8 @@ class Description:
         errors: Segments that could not be used, by index. Their codes are 0, their descriptors and
             centroids NaN.
         dropped_points: Number of points that were not finite and were left out.
+        classes: Class of each segment and its probability, as `placecell_client.classes` reads
+            them, uint8 (n,); 0: unknown. None if the model has no semantic head.
     """
 
     model_id: str
@@ -43,6 +45,7 @@ class Description:
     centroids: NDArray[np.float64]
     errors: dict[int, ItemError]
     dropped_points: int = 0
+    classes: NDArray[np.uint8] | None = None
 
     def __repr__(self) -> str:
         return (

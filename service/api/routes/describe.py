@@ -10,7 +10,7 @@ from service.api.body.problem_json import documented
 from service.api.dependencies import PrincipalOf, StateOf, TimingOf
 from service.api.openapi import body_of, packed_response
 from service.api.query_parsing import read_scan
-from service.api.responses import segment_error
+from service.api.responses import listed_classes, segment_error
 from service.api.schemas.msgpack import PackedDescribeRequest, PackedDescribeResponse
 from service.api.schemas.recognition import DescribeRequest, DescribeResponse
 from service.api.state import State
@@ -34,7 +34,8 @@ async def describe(
 ) -> Response:
     """Return one result per segment, in order: its descriptor, or the reason why it has none.
 
-    If no segment can be described, the answer is a 422.
+    If no segment can be described, the answer is a 422. If the model has a semantic head, `classes`
+    has the class of each segment.
     """
     del principal  # any key may describe
     answer = answer_type(request)
@@ -69,6 +70,9 @@ def _written(model: Model, descriptors: Descriptors, answer: str, timing: Timing
         ],
         "dropped_points": descriptors.dropped_points,
     }
+    classes = descriptors.classes
+    if classes is not None:
+        response["classes"] = classes.tobytes() if answer == MSGPACK else listed_classes(classes)
     content = render(response, answer)
     timing.lap("encode")
     return content

@@ -189,5 +189,5 @@ class PackedDescriptor(BaseModel):
     centroid: Point = Field(description="Mean of the points, meters, in the frame of the request.")
 
 
-class PackedDescribeResponse(DescriptorsResponse[PackedDescriptor]):
+class PackedDescribeResponse(DescriptorsResponse[PackedDescriptor, bytes]):
     """`DescribeResponse` as msgpack."""

@@ -1,6 +1,6 @@
 """Schemas of `/describe` and `/match` as JSON; `schemas.msgpack` has the msgpack form."""
 
-from typing import Annotated, Generic, Self, TypeVar
+from typing import Annotated, Generic, Literal, Self, TypeVar
 
 from placecell_client.maps.compact_map import COORDINATE_LIMIT
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, model_validator
@@ -19,6 +19,7 @@ Covariance = Annotated[
     Field(min_length=3, max_length=6),
 ]
 Name = Annotated[str, Field(strict=True)]
+ClassName = Literal["building", "vegetation", "pole", "vehicle", "person", "fence", "sign", "other"]
 Code = Annotated[int, Field(strict=True, ge=-128, le=127)]
 Centroids = Annotated[list[Point], Field(fail_fast=True, min_length=1)]
 Codes = Annotated[
@@ -29,6 +30,7 @@ SegmentT = TypeVar("SegmentT")
 CodesT = TypeVar("CodesT")
 CentroidsT = TypeVar("CentroidsT")
 DescriptorT = TypeVar("DescriptorT")
+ClassesT = TypeVar("ClassesT")
 
 # fail_fast: a list of a million wrong values is one error, not a million.
 
@@ -158,7 +160,16 @@ class DescriptorOut(BaseModel):
     centroid: Point = Field(description="Mean of the points, meters, in the frame of the request.")
 
 
-class DescriptorsResponse(BaseModel, Generic[DescriptorT]):
+class ClassOut(BaseModel):
+    """Class of a segment."""
+
+    name: ClassName
+    probability: float = Field(
+        description="Calibrated probability of this class, 0 to 1, in steps of 1/30.", ge=0, le=1
+    )
+
+
+class DescriptorsResponse(BaseModel, Generic[DescriptorT, ClassesT]):
     """Descriptors in the order of the segments, in either encoding."""
 
     model_id: str
@@ -167,9 +178,15 @@ class DescriptorsResponse(BaseModel, Generic[DescriptorT]):
     dropped_points: int = Field(
         default=0, description="Number of non-finite points (msgpack only) that were left out."
     )
+    classes: ClassesT | None = Field(
+        default=None,
+        description="Class of each segment; null (0 in msgpack) where it is unknown. Absent if the "
+        "model has no semantic head. In msgpack, one byte a segment: 0, or 1 + 31 x class + "
+        "step, with the probability step / 30.",
+    )
 
 
-class DescribeResponse(DescriptorsResponse[DescriptorOut]):
+class DescribeResponse(DescriptorsResponse[DescriptorOut, list[ClassOut | None]]):
     """Descriptors in the order of the segments."""
 
 
