@@ -25,6 +25,9 @@ KEYFRAME = 3.0
 SPACING = 1.0
 """Distance between two scans, meters."""
 
+LONG = 10_000.0
+"""Way from which scans are twice as far apart, so that 20 km are simulated in minutes."""
+
 COLUMNS = 384
 """Azimuth steps of the simulated sensor: few, to simulate 20 km in minutes."""
 
@@ -50,6 +53,11 @@ class DriftCase:
         """Name of the case in reports and of its files."""
         kind = "look-alikes" if self.look_alikes > 0.5 else "town"
         return f"{kind}-{self.meters / 1000:g}km-{self.robots}robots-seed{self.seed}"
+
+    @property
+    def spacing(self) -> float:
+        """Distance between two scans, meters."""
+        return SPACING if self.meters < LONG else 2 * SPACING
 
     def routes(self) -> tuple[City, list[Route]]:
         """Return the town and the route of each robot.
@@ -109,7 +117,9 @@ def robot_maps(
         missing = [each for each in percents if not _path(files[each, number], ".npz").exists()]
         if missing:
             cache.mkdir(parents=True, exist_ok=True)
-            found = _drive(city, route, lidar, case.seed * 100 + number, number, missing, tell)
+            found = _drive(
+                city, route, lidar, case.seed * 100 + number, number, missing, tell, case.spacing
+            )
             for percent, (content, poses, meters) in found.items():
                 file = files[percent, number]
                 _path(file, ".map").write_bytes(encode(content))
@@ -141,9 +151,10 @@ def _drive(
     number: int,
     percents: Sequence[float],
     tell: Callable[[str], None],
+    spacing: float = SPACING,
 ) -> dict[float, tuple[CompactMap, Float64, float]]:
     """Simulate a drive once, and map it with each odometry."""
-    distances = np.arange(2.0, route.length() - 2.0, SPACING)
+    distances = np.arange(2.0, route.length() - 2.0, spacing)
     true = route.poses(distances, lidar.height)
     meters = float(np.linalg.norm(np.diff(true[:, :3, 3], axis=0), axis=1).sum())
     engine = LocalEngine()
@@ -154,9 +165,9 @@ def _drive(
         ]
         for scan, points in _scans(city, route, lidar, seed, distances, true):
             for mapper in mappers:
-                mapper.add(scan, points)
+                mapper.add(scan, points, scan * spacing)
             if scan % 500 == 0:
-                tell(f"robot {number}: {scan * SPACING:,.0f} of {meters:,.0f} m")
+                tell(f"robot {number}: {scan * spacing:,.0f} of {meters:,.0f} m")
         found = {}
         for percent, mapper in zip(percents, mappers, strict=True):
             content = mapper.content()
@@ -189,7 +200,7 @@ class _Mapper:
         self._edits = EditMaker(name, "drift")
         self._deltas: list[bytes] = []
 
-    def add(self, scan: int, points: np.ndarray) -> None:
+    def add(self, scan: int, points: np.ndarray, meters: float) -> None:
         pose = self._odometry[scan]
         self._segmentation.add(points, pose)
         if not self._keyframes.add(pose):
@@ -201,7 +212,7 @@ class _Mapper:
             live.ids[usable], codes, centroids, self._engine.model_id, self._engine.preprocessing
         )
         capture = Capture(scan * SWEEP_SECONDS, pose)
-        edit = self._edits.add(seen, capture, scan * SPACING)
+        edit = self._edits.add(seen, capture, meters)
         if edit is not None:
             self._deltas.append(edit.content)
 

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -17,6 +17,7 @@ from placecell.pose_graph.consistency import (
 )
 from placecell.pose_graph.frames import GraphFrames, Links
 from placecell.pose_graph.loops import FoundLoop, GraphMap, SegmentSearch, find_loops, links_of
+from placecell.pose_graph.odometry_correction import with_corrected_odometry
 from placecell.pose_graph.optimize import Solution, optimize, parts_of, residuals, solver
 from placecell.pose_graph.parameters import PoseGraphParameters
 
@@ -104,9 +105,10 @@ def bend(
     """
     solver()  # before a search that may take minutes
     # Each track as its odometry gave it: a map that was optimized before has the same loops again.
-    raw = graph.as_driven()
+    raw = with_corrected_odometry(graph.as_driven(), parameters)
     loops = find_loops(raw, search, parameters, confidence, progress=progress)
-    return judged(graph.frames, loops, parameters)
+    frames = replace(graph.frames, odometry=raw.frames.odometry)
+    return judged(frames, loops, parameters)
 
 
 def judged(
@@ -141,18 +143,23 @@ def judged(
     while len(kept) < len(left):
         left = reject(left, kept, "outlier")
         found, kept = _trusted(frames, links, left, parameters)
-    meters, angles = residuals(found.positions, found.yaws, links)
+    # Without loops, there is nothing to optimize: captures stay where they are.
+    parts = parts_of(frames, links.take(left))
+    looped = np.isin(parts, parts[links.one[left]])
+    positions = np.where(looped[:, None], found.positions, frames.positions)
+    yaws = np.where(looped, found.yaws, frames.yaws)
+    meters, angles = residuals(positions, yaws, links)
     apart, degrees = np.linalg.norm(meters, axis=1), np.degrees(np.abs(angles))
     before, _ = residuals(frames.positions, frames.yaws, links.take(left))
     return BentMap(
         frames=frames,
-        positions=found.positions,
-        yaws=found.yaws,
+        positions=positions,
+        yaws=yaws,
         loops=tuple(
             JudgedLoop(loop, verdict, float(distance), float(angle))
             for loop, verdict, distance, angle in zip(loops, verdicts, apart, degrees, strict=True)
         ),
-        parts=parts_of(frames, links.take(left)),
+        parts=parts,
         before=_mean_square(np.linalg.norm(before, axis=1)),
         after=_mean_square(apart[left]),
     )

@@ -22,6 +22,12 @@ class PoseGraphParameters:
     drift_height: float = 0.02
     drift_yaw: float = 0.05
     """Standard deviations of height and heading after one meter; they grow in the same way."""
+    scale: float = 0.01
+    """Standard deviation of the scale error, before segments correct it."""
+    scale_length: float = 100.0
+    """Way over which the scale error forgets its value."""
+    drift_corrected: float = 0.02
+    """Like `drift`, once segments have corrected the scale."""
 
     # Search for loops.
     every: float = 8.0

@@ -158,3 +158,11 @@ def test_robots_that_never_meet_stay_apart() -> None:
     bent = judged(joined([frames, far]), loops)
     assert len(set(bent.parts.tolist())) == 2
     np.testing.assert_allclose(bent.positions[200:], far.positions, atol=1e-6)
+
+
+def test_captures_without_loops_stay_even_if_their_odometry_was_corrected() -> None:
+    true, frames, _ = drifting_square(6)
+    corrected = GraphFrames(frames.times, frames.positions, frames.yaws, true.odometry)
+    bent = judged(corrected, [])
+    np.testing.assert_array_equal(bent.positions, frames.positions)
+    np.testing.assert_array_equal(bent.yaws, frames.yaws)
