@@ -146,6 +146,7 @@ class Engine:
             except StoreError as error:
                 raise StartError(f"{place}: {error}") from error
             self.maps.on_delete = self.annotations.forget
+            self.maps.anchors = self.annotations
             self.follower: Follower | None = None
             if isinstance(store, SharedStore):
                 reload = partial(self.annotations.reload, read=store.annotations_of)

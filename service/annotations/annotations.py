@@ -11,8 +11,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from placecell.core.geodesy import GeoAnchor
+from placecell.core.types import Float64
 from placecell.localization import Pose
+from service.annotations.moving import CaptureMovement
 from service.core.settings import Limits
+from service.maps.layers import MapLayers
 from service.maps.quotas import OverQuotaError
 from service.maps.repository import OutdatedError
 from service.maps.snapshot import MapSnapshot
@@ -20,6 +23,10 @@ from service.maps.store import Annotation, MapStore
 
 TAG, GEO, NAMED, MIRROR = "tag", "anchor", "pose", "mirror"
 """Kinds of annotations."""
+
+FOLLOWED = "segment"
+"""Kind of the annotation that names a segment: an anchor follows its capture. Its name is that of
+the anchor; it is empty for the place on the Earth."""
 
 MAP_TAGS = 32
 """Largest number of tags of a map."""
@@ -87,12 +94,15 @@ class MapAnnotations:
         geo: WGS 84 anchor; None if the map has none.
         named: named anchors by name, sorted.
         mirror: mark of a copy of another service's map; None for a map of this service.
+        followed: segment whose capture each anchor followed when captures were moved, by name; the
+            empty name is the WGS 84 anchor.
     """
 
     tags: tuple[str, ...] = ()
     geo: StoredGeoAnchor | None = None
     named: Mapping[str, NamedAnchor] = field(default_factory=dict)
     mirror: MirrorMark | None = None
+    followed: Mapping[str, int] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.tags) + (self.geo is not None) + len(self.named)
@@ -168,6 +178,10 @@ class Annotations:
         rows = [Annotation(kind, name, json.dumps(value), author, now) for kind, name, value in put]
         with self._lock:
             before = self._by_uid.get(uid, NOTHING)
+            # An anchor that is written anew follows the capture that is nearest then.
+            written = [*((row.kind, row.name) for row in rows), *removed]
+            loose = [(FOLLOWED, name) for kind, name in written if kind in {GEO, NAMED}]
+            removed = [*removed, *(key for key in loose if key[1] in before.followed)]
             kept = {(each.kind, each.name): each for each in _rows_of(before)}
             for key in removed:
                 kept.pop(key, None)
@@ -180,6 +194,54 @@ class Annotations:
                 raise OutdatedError(snapshot.name) from error
             self._by_uid[uid] = after
             return after
+
+    def moved(self, snapshot: MapSnapshot, layers: MapLayers) -> list[Annotation]:
+        """Return the anchors of a map that follow captures into its next version, as rows.
+
+        Args:
+            snapshot: the map as it is.
+            layers: segments of its next version.
+        """
+        present = self.of(snapshot)
+        if (present.geo is None and not present.named) or layers.base.frame != snapshot.frame:
+            return []
+        movement = CaptureMovement(snapshot.layers.content(), layers.content())
+        if movement.is_none:
+            return []
+        now, rows = self._clock(), []
+
+        def follow(name: str, author: str, position: Float64) -> Pose | None:
+            """Add the row of the followed segment; return the movement, None if there is none."""
+            found = movement.bound(position, present.followed.get(name))
+            if found is None or np.array_equal(found[1].matrix, np.eye(4)):
+                return None
+            value = json.dumps({"segment": found[0]})
+            rows.append(Annotation(FOLLOWED, name, value, author, now))
+            return found[1]
+
+        geo = present.geo
+        if geo is not None and geo.frame == snapshot.frame:
+            move = follow("", geo.author, np.array(geo.anchor.position))
+            if move is not None:
+                there = geo.anchor.moved(move.rotation, move.translation)
+                value = json.dumps(geo_value(there, geo.frame))
+                rows.append(Annotation(GEO, "", value, geo.author, now))
+        for name, each in present.named.items():
+            if each.frame != snapshot.frame:
+                continue
+            move = follow(name, each.author, each.pose.translation)
+            if move is not None:
+                value = json.dumps(pose_value(move.after(each.pose), each.frame))
+                rows.append(Annotation(NAMED, name, value, each.author, now))
+        return rows
+
+    def adopt(self, snapshot: MapSnapshot, rows: Sequence[Annotation]) -> None:
+        """Use annotations of a map that were written with its next version."""
+        uid = snapshot.head.uid
+        with self._lock:
+            kept = {(each.kind, each.name): each for each in _rows_of(self._by_uid[uid])}
+            kept |= {(each.kind, each.name): each for each in rows}
+            self._by_uid[uid] = _parsed(list(kept.values()))
 
     def _check(self, before: MapAnnotations, after: MapAnnotations) -> None:
         """Check the quotas; removal is never refused."""
@@ -222,7 +284,7 @@ def mirror_value(source: str, etag: str) -> dict[str, Any]:
 def _parsed(rows: Sequence[Annotation]) -> MapAnnotations:
     tags = sorted(each.name for each in rows if each.kind == TAG)
     geo = mirror = None
-    named = {}
+    named, followed = {}, {}
     for each in sorted(rows, key=lambda row: row.name):
         value = json.loads(each.value)
         if each.kind == GEO:
@@ -236,7 +298,9 @@ def _parsed(rows: Sequence[Annotation]) -> MapAnnotations:
             named[each.name] = NamedAnchor(each.name, pose, value["frame"], each.author, each.time)
         elif each.kind == MIRROR:
             mirror = MirrorMark(value["source"], value["etag"], each.author, each.time)
-    return MapAnnotations(tuple(tags), geo, named, mirror)
+        elif each.kind == FOLLOWED:
+            followed[each.name] = int(value["segment"])
+    return MapAnnotations(tuple(tags), geo, named, mirror, followed)
 
 
 def _rows_of(annotations: MapAnnotations) -> list[Annotation]:
@@ -251,4 +315,6 @@ def _rows_of(annotations: MapAnnotations) -> list[Annotation]:
     if (mirror := annotations.mirror) is not None:
         value = json.dumps(mirror_value(mirror.source, mirror.etag))
         rows.append(Annotation(MIRROR, "", value, mirror.author, mirror.time))
+    for name, segment in annotations.followed.items():
+        rows.append(Annotation(FOLLOWED, name, json.dumps({"segment": segment}), "", 0.0))
     return rows

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from fnmatch import fnmatchcase
 from threading import Lock
+from typing import Protocol
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -23,14 +24,24 @@ from service.maps.index import LayeredIndex, MapIndex
 from service.maps.layers import MapLayers
 from service.maps.quotas import NoRoomError, Quotas, Usage
 from service.maps.shared_index import SharedIndexes
-from service.maps.snapshot import KEEPS_FRAME, MapSnapshot
-from service.maps.store import Ids, MapHead, MapStore, Note, StoreError
+from service.maps.snapshot import KEEPS_FRAME, MOVES_CAPTURES, MapSnapshot
+from service.maps.store import Annotation, Ids, MapHead, MapStore, Note, StoreError
 
 logger = logging.getLogger("placecell")
 
 
 KNOWN_VERSIONS = 64
 """Number of last versions of each map that `has_had` knows."""
+
+
+class FollowingAnchors(Protocol):
+    """Anchors that follow the captures around them."""
+
+    def moved(self, snapshot: MapSnapshot, layers: MapLayers) -> Sequence[Annotation]:
+        """Return the annotations of a map that follow the captures into its next version."""
+
+    def adopt(self, snapshot: MapSnapshot, rows: Sequence[Annotation]) -> None:
+        """Use annotations of a map that were written with its next version."""
 
 
 class OutdatedError(Problem):
@@ -56,6 +67,7 @@ class MapRepository:
         copied_segments: number of segments that writes have copied.
         on_delete: is called with the uid of each map that was deleted.
         catch_up: loads what other services wrote to the map of a name.
+        anchors: anchors of the maps, which follow captures that are moved.
     """
 
     def __init__(
@@ -83,6 +95,7 @@ class MapRepository:
         self.shared = SharedIndexes()
         self.copied_segments = 0
         self.on_delete: Callable[[str], None] = lambda _: None
+        self.anchors: FollowingAnchors | None = None
         self._models = models
         self._quotas = quotas
         self._clock = clock
@@ -266,6 +279,9 @@ class MapRepository:
         # An empty map takes the frame of what is written next.
         keeps = operation in KEEPS_FRAME and len(snapshot)
         note = Note(self._clock(), author, operation, len(delta.changed), len(delta.removed))
+        moved: Sequence[Annotation] = ()
+        if self.anchors is not None and operation in MOVES_CAPTURES:
+            moved = self.anchors.moved(snapshot, layers)
         with self._committing:
             try:
                 self._quotas.check_write(self._usage, snapshot, robots, sources, size)
@@ -278,9 +294,11 @@ class MapRepository:
             ids = Ids(runs_of(delta.changed.ids), own)
             frees = not len(delta.changed) and not delta.is_whole
             try:
-                head = self.store.append(snapshot.head, blob, note, 0, ids, frees)
+                head = self.store.append(snapshot.head, blob, note, 0, ids, frees, moved)
             except KeyError as error:
                 raise OutdatedError(snapshot.name) from error
+            if self.anchors is not None and moved:
+                self.anchors.adopt(snapshot, moved)
             return self._publish(
                 MapSnapshot(
                     head=head,

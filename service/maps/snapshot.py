@@ -9,6 +9,9 @@ from service.maps.store import MapHead
 KEEPS_FRAME = frozenset({"edit", "age", "merge"})
 """Operations that leave all earlier segments where they are in the map's frame."""
 
+MOVES_CAPTURES = frozenset({"optimize", "bend", "restore"})
+"""Operations after which captures may be at other poses in the same frame; `bend` is a merge."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MapSnapshot:

@@ -272,6 +272,7 @@ class MapStore(Protocol):
         next_id: int,
         ids: Ids = NO_IDS,
         frees: bool = False,
+        annotations: Sequence[Annotation] = (),
     ) -> MapHead:
         """Add a commit.
 
@@ -282,6 +283,7 @@ class MapStore(Protocol):
             next_id: smallest `next_id` of the map after the commit.
             ids: ids that the commit takes.
             frees: whether the commit makes the map smaller, so that a full disk accepts it.
+            annotations: annotations of the map to add or replace in the same transaction.
         """
 
     def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:

@@ -15,6 +15,7 @@ from service.annotations.annotations import (
     geo_value,
     pose_value,
 )
+from service.annotations.moving import CaptureMovement
 from service.maps.repository import MapRepository
 from service.maps.snapshot import MapSnapshot
 from service.merging.merge import CarriedAnchor, MergeResult
@@ -55,6 +56,8 @@ def _planned(
     geo = present.geo.anchor if present.geo is not None and present.geo.frame == frame else None
     named = {key: each.pose for key, each in present.named.items() if each.frame == frame}
     taken = {*present.named}
+    # Captures that the optimization moved take the anchors beside them along.
+    bent = None if merged.bent is None else CaptureMovement(*merged.bent)
     outcomes: list[CarriedAnchor] = []
     put: list[tuple[str, str, dict[str, Any]]] = []
     for number in merged.outcomes:
@@ -62,6 +65,9 @@ def _planned(
         found = annotations.geo_anchor(part)
         if found is not None:
             placed = found.moved(pose.rotation, pose.translation)
+            if bent is not None:
+                move = bent.at(np.array(placed.position))
+                placed = placed.moved(move.rotation, move.translation)
             outcomes.append(_geo_outcome(part, placed, geo))
             if geo is None:
                 geo = placed
@@ -70,6 +76,8 @@ def _planned(
             if each.frame != part.frame:
                 continue
             there = pose.after(each.pose)
+            if bent is not None:
+                there = bent.at(there.translation).after(there)
             outcomes.append(_named_outcome(part, key, there, named, taken))
             if key not in taken:
                 taken.add(key)

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from placecell_client import MapFileError, encode
+from placecell_client import CompactMap, MapFileError, encode
 
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
@@ -28,6 +28,9 @@ from service.merging.join import (
 from service.merging.plan import MergePlan, plan_merge
 
 AnchorOutcome = Literal["carried", "kept", "conflict"]
+
+TRIES = 3
+"""Number of times that a merge which bends is tried while the merged map is written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +64,7 @@ class MergeResult:
         changed: number of segments added or replaced.
         removed: number of segments removed.
         anchors: outcome of each anchor of the merged maps.
+        bent: the merged map before and after its optimization; None if no capture was moved.
     """
 
     plan: MergePlan
@@ -71,6 +75,28 @@ class MergeResult:
     changed: int
     removed: int
     anchors: tuple[CarriedAnchor, ...] = ()
+    bent: tuple[CompactMap, CompactMap] | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _JoinedMaps:
+    """Maps that were joined, and not yet written.
+
+    Attributes:
+        before: version of the merged map that they were joined on; None: there was no map.
+        present: its segments.
+        content: segments of the merged map.
+        bent: the same after the optimization; None if it is rigid, or no capture moves.
+        outcomes: outcome of each map that was merged, by number.
+        reserved: ids that were reserved for the new segments.
+    """
+
+    before: MapSnapshot | None
+    present: CompactMap | None
+    content: CompactMap
+    bent: CompactMap | None
+    outcomes: dict[int, PartOutcome]
+    reserved: range | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,8 +164,24 @@ class Merger:
                 "nothing was changed. Send the request with dry_run for the reasons.",
             )
         self.check()
-        with maps.writing(name):
-            return self._write(name, target, plan, joining)
+        if self.rigid:
+            with maps.writing(name):
+                return self._write(name, plan, self._joined(name, target, plan, joining))
+        # The optimization may take minutes: nobody waits for it, and a write makes it void.
+        free: range | None = None
+        for _ in range(TRIES):
+            joined = self._joined(name, target, plan, joining, free)
+            with maps.writing(name):
+                if _is_same(maps.find(name), joined.before):
+                    return self._write(name, plan, joined)
+            free = joined.reserved
+            self.check()
+        raise Problem(
+            409,
+            "map-changed",
+            f"Map {name!r:.80} was written {TRIES} times during the merge; nothing was changed. "
+            "Try again when robots write less.",
+        )
 
     def _known_poses(self, plan: MergePlan) -> dict[int, Pose]:
         """Return the poses of maps that were merged before, by number.
@@ -154,12 +196,25 @@ class Merger:
                 poses[number] = pose
         return poses
 
-    def _write(
-        self, name: str, before: MapSnapshot | None, plan: MergePlan, joining: Mapping[int, float]
-    ) -> MergeResult:
-        """Join these parts, by number, each with its slack, and store the merged map."""
-        writer, maps = self.writer, self.writer.maps
-        snapshot = maps.find(name)
+    def _joined(
+        self,
+        name: str,
+        before: MapSnapshot | None,
+        plan: MergePlan,
+        joining: Mapping[int, float],
+        free: range | None = None,
+    ) -> _JoinedMaps:
+        """Join these parts, by number, each with its slack, on the newest version of the map.
+
+        Args:
+            name: name of the merged map.
+            before: the merged map when the parts were aligned.
+            plan: poses of the maps.
+            joining: slack of each part, by number.
+            free: ids that an earlier try reserved and did not write.
+        """
+        writer = self.writer
+        snapshot = writer.maps.find(name)
         self._check_frame_kept(name, before, snapshot)
         parts = [
             MergePart(
@@ -167,45 +222,60 @@ class Merger:
             )
             for number, slack in joining.items()
         ]
-        manifest = writer.models.named(plan.maps[0].model_id).manifest
-        same = SameView.of(manifest) if self.deduplicate else None
+        model = writer.models.named(plan.maps[0].model_id)
+        same = SameView.of(model.manifest) if self.deduplicate else None
         present = None if snapshot is None else snapshot.layers.content()
         # A merged map without segments takes the frame of the first map.
         target = present if present is not None and len(present) else empty_merged_map(plan.maps[0])
         first_id = 0 if snapshot is None else snapshot.head.next_id
+        first_id = first_id if free is None else free.start
+        reserved = free
         try:
             content, found = join_settled(target, parts, first_id, same, self.parameters)
             count = sum(outcome.added for outcome in found)
-            if snapshot is not None and count and not self.dry_run:
-                reserved = writer.reserve(name, count)
-                if reserved != first_id:  # another request reserved ids in the meantime
-                    content, found = join_settled(target, parts, reserved, same, self.parameters)
+            is_free = free is not None and count <= len(free)
+            if snapshot is not None and count and not self.dry_run and not is_free:
+                first = writer.reserve(name, count)
+                reserved = range(first, first + count)
+                if first != first_id:  # another request reserved ids in the meantime
+                    content, found = join_settled(target, parts, first, same, self.parameters)
         except MapFileError as error:
             raise Problem(
                 409, "cannot-merge", f"The maps cannot be joined: {error}. Leave one of them out."
             ) from error
         except OutOfIdsError as error:
             raise out_of_ids(name, error) from error
+        bent = None
         if not self.rigid:
             self.check()
-            model = writer.models.named(plan.maps[0].model_id)
             _, bent = bend_content(content, model, PoseGraphParameters())
-            content = content if bent is None else bent
         outcomes = dict(zip(joining, found, strict=True))
-        previous = snapshot.head.sequence if snapshot is not None else None
+        return _JoinedMaps(snapshot, present, content, bent, outcomes, reserved)
+
+    def _write(self, name: str, plan: MergePlan, joined: _JoinedMaps) -> MergeResult:
+        """Store the merged map; the caller holds its write lock."""
+        writer, snapshot = self.writer, joined.before
+        content = joined.content if joined.bent is None else joined.bent
+        result = MergeResult(
+            plan=plan,
+            outcomes=joined.outcomes,
+            segments=len(content),
+            written=None,
+            previous=None if snapshot is None else snapshot.head.sequence,
+            changed=len(content),
+            removed=0,
+            bent=None if joined.bent is None else (joined.content, joined.bent),
+        )
         if snapshot is None:
-            written = None
-            if not self.dry_run:
-                written = writer.create(name, content, encode(content), "merge")
-            return MergeResult(plan, outcomes, len(content), written, previous, len(content), 0)
-        change = snapshot.layers.change_to(content, snapshot.head.sequence, present)
+            if self.dry_run:
+                return result
+            return replace(result, written=writer.create(name, content, encode(content), "merge"))
+        change = snapshot.layers.change_to(content, snapshot.head.sequence, joined.present)
         if self.dry_run:
             changed, removed = len(change.delta.changed), len(change.delta.removed)
-            return MergeResult(plan, outcomes, len(content), None, previous, changed, removed)
-        written = writer.commit(snapshot, change, "merge")
-        return MergeResult(
-            plan, outcomes, len(content), written, previous, written.changed, written.removed
-        )
+            return replace(result, changed=changed, removed=removed)
+        written = writer.commit(snapshot, change, "merge" if joined.bent is None else "bend")
+        return replace(result, written=written, changed=written.changed, removed=written.removed)
 
     def _check_frame_kept(
         self, name: str, before: MapSnapshot | None, snapshot: MapSnapshot | None
@@ -220,3 +290,10 @@ class Merger:
             "map-changed",
             f"Map {name!r:.80} was replaced during the merge; nothing was changed. Try again.",
         )
+
+
+def _is_same(one: MapSnapshot | None, other: MapSnapshot | None) -> bool:
+    """Return whether two snapshots are the same version of a map, or both None."""
+    if one is None or other is None:
+        return one is other
+    return one.tag == other.tag

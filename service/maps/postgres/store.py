@@ -145,6 +145,7 @@ class PostgresStore:
         next_id: int,
         ids: Ids = NO_IDS,
         frees: bool = False,
+        annotations: Sequence[Annotation] = (),
     ) -> MapHead:
         """Add a commit after a head; KeyError if the map has another head."""
         del frees  # the server's disk has no reserve
@@ -158,7 +159,10 @@ class PostgresStore:
                 # Later commits of others are not part of the answer.
                 size = head.log_bytes + len(blob)
                 return replace(found, sequence=head.sequence + 1, mark=mark, log_bytes=size)
-            return _told(rows, append_commit(rows, head, blob, note, next_id, ids))
+            after = append_commit(rows, head, blob, note, next_id, ids, annotations=annotations)
+            if annotations:
+                _count_annotated(rows, row_of(rows, head.uid))
+            return _told(rows, after)
 
         return self._database.transaction(add)
 
@@ -204,7 +208,7 @@ class PostgresStore:
             _locked(rows, uid)
             row, head = row_of(rows, uid), head_of(rows, uid)
             write_annotations(rows, row, put, removed)
-            rows.execute("UPDATE maps SET annotated = annotated + 1 WHERE map = ?", (row,))
+            _count_annotated(rows, row)
             _told(rows, head)
 
         self._database.transaction(write)
@@ -345,6 +349,11 @@ def _has_commit(rows: Rows, uid: str, sequence: int, mark: str) -> bool:
         (row_of(rows, uid), sequence, mark),
     ).fetchone()
     return found is not None
+
+
+def _count_annotated(rows: Rows, row: int) -> None:
+    """Count a write of a map's annotations, so that the followers read them again."""
+    rows.execute("UPDATE maps SET annotated = annotated + 1 WHERE map = ?", (row,))
 
 
 def _synced(rows: Rows, uid: str) -> MapHead:

@@ -1,6 +1,6 @@
 """Writes to a map, within a transaction of the caller."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -18,6 +18,7 @@ from service.maps.sql.tables import (
 )
 from service.maps.store import (
     IDS,
+    Annotation,
     Ids,
     MapHead,
     Note,
@@ -83,8 +84,9 @@ def append_commit(
     next_id: int,
     ids: Ids,
     given_out: GivenOut = UNRECORDED,
+    annotations: Sequence[Annotation] = (),
 ) -> MapHead:
-    """Add a commit after a head; KeyError if the map has another head."""
+    """Add a commit after a head, and write annotations; KeyError if the map has another head."""
     row, found = row_of(rows, head.uid), head_of(rows, head.uid)
     if found.mark != head.mark:
         raise KeyError(head.name)
@@ -102,6 +104,7 @@ def append_commit(
         given_out.raise_to(head.uid, after.next_id)
     Owners(rows, row).write(ids.written, note.author)
     insert_commit(rows, row, commit, blob)
+    write_annotations(rows, row, annotations, ())
     return save_head(rows, row, after)
 
 

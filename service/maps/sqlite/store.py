@@ -140,6 +140,7 @@ class SqliteMapStore:
         next_id: int,
         ids: Ids = NO_IDS,
         frees: bool = False,
+        annotations: Sequence[Annotation] = (),
     ) -> MapHead:
         """Add a commit after a head; KeyError if the map has another head.
 
@@ -148,7 +149,7 @@ class SqliteMapStore:
         """
 
         def add(rows: Rows) -> MapHead:
-            return append_commit(rows, head, blob, note, next_id, ids, self._ledger)
+            return append_commit(rows, head, blob, note, next_id, ids, self._ledger, annotations)
 
         if frees:
             return self._database.freeing(add, share=0.5)

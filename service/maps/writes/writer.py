@@ -367,7 +367,7 @@ class MapWriter:
         check_times(change.delta.changed)
         written = np.setdiff1d(change.delta.changed.ids, refreshed)
         new = np.setdiff1d(written, change.before.ids)
-        if operation == "merge":  # it reserved its ids
+        if operation in {"merge", "bend"}:  # it reserved its ids
             return new
         check_new(self.maps.store, self.principal, snapshot.head, new)
         return written

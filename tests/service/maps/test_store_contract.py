@@ -20,6 +20,7 @@ from service.maps.store import (
     Note,
     OutOfIdsError,
     Owner,
+    SharedStore,
     StoreError,
     TooManyIdsError,
 )
@@ -234,6 +235,20 @@ def test_ids_have_the_owner_that_wrote_or_reserved_them_last(store: AnyStore) ->
     freed = store.free_ids(head.uid, [0, 1])
     assert (freed.next_id, freed.end_id) == (2, IDS)
     assert store.owners(head.uid, [1, 6]) == [ann, None]
+
+
+def test_annotations_are_written_with_a_commit_or_not_at_all(store: AnyStore) -> None:
+    head = store.create("yard", b"file", NOTE, 0)
+    pose = Annotation("pose", "dock", "[1]", "ann", 1.75e9)
+    store.annotate(head.uid, [pose])
+    moved = replace(pose, value="[2]")
+    after = store.append(head, b"delta", NOTE, 0, annotations=[moved])
+    assert store.annotations() == {head.uid: [moved]}
+    with pytest.raises(KeyError):
+        store.append(head, b"other", NOTE, 0, annotations=[pose])
+    assert store.annotations() == {after.uid: [moved]}
+    if isinstance(store, SharedStore):
+        assert [each.annotated for each in store.shared_maps()] == [2]
 
 
 def test_annotations_are_replaced_and_removed(store: AnyStore) -> None:
