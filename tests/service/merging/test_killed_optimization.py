@@ -113,7 +113,7 @@ Outcomes = dict[str, tuple[State | None, State | None]]
 
 def outcomes(killed: Killed, maps: dict[str, CompactMap]) -> Outcomes:
     """Store the maps; return the state of each map before and after its operation."""
-    found = {}
+    found: Outcomes = {}
     with killed.client() as client:
         for name, content in maps.items():
             client.put_map(name, content)

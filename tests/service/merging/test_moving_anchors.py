@@ -11,10 +11,12 @@ from placecell_client.maps.edit import take
 from scipy.spatial.transform import Rotation
 
 from placecell.core.geodesy import GeoAnchor, to_geodetic
+from placecell.core.types import Float64
 from placecell.descriptors.manifest import Manifest
 from placecell.pose_graph.frames import headings, rotated
 from service.annotations.moving import CaptureMovement
 from service.merging import merge as merging
+from service.merging.bending import bend_content
 from tests.service.annotations.test_anchors import GEO
 from tests.service.merging.drifting_maps import drifting_map
 from tests.service.merging.merged_map_builders import merge, models_that_judge, put
@@ -44,7 +46,7 @@ def content(service: Any, name: str = "block") -> CompactMap:
     return decode(service.get(f"/maps/{name}").content)
 
 
-def yaws_of(given: CompactMap) -> np.ndarray:
+def yaws_of(given: CompactMap) -> Float64:
     return headings(Rotation.from_quat(given.frame_orientations).as_matrix())
 
 
@@ -54,7 +56,7 @@ def anchor_beside(service: Any, given: CompactMap, capture: int, name: str = "do
     position = given.frame_positions[capture] + rotated(ahead, yaws_of(given)[[capture]])[0]
     body = {"position": position.tolist(), "orientation": [0.0, 0.0, 0.0, 1.0]}
     assert service.put(f"/maps/block/anchors/{name}", json=body).is_success
-    return position
+    return np.asarray(position)
 
 
 def position_of(service: Any, name: str = "dock", of: str = "block") -> np.ndarray:
@@ -154,17 +156,16 @@ def test_merge_that_bends_carries_anchors_to_the_moved_captures(
 
 def written_during(service: Any, monkeypatch: pytest.MonkeyPatch, edits: list[bytes]) -> list[int]:
     """Send an edit during each optimization of a merge; return the status of each."""
-    bend = merging.bend_content
     statuses: list[int] = []
 
     def meanwhile(*args: Any) -> Any:
-        found = bend(*args)
+        found = bend_content(*args)
         if edits:
             response = service.post("/maps/site/segments", content=edits.pop())
             statuses.append(response.status_code)
         return found
 
-    monkeypatch.setattr(merging, "bend_content", meanwhile)
+    monkeypatch.setattr("service.merging.merge.bend_content", meanwhile)
     return statuses
 
 
