@@ -3,19 +3,21 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 import numpy as np
 from placecell_client import CompactMap
 from placecell_client.maps.union import union
 
+from benchmarks.drift.merging import merge_row
 from benchmarks.drift.town_maps import DriftCase, TrueMap, robot_maps
+from benchmarks.drift.views import shared_things, within
 from evaluation.machine import machine
 from evaluation.trajectory import absolute_error
 from placecell.core.types import Float64, Int64
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
-from placecell.pose_graph import BentMap, GraphMap
+from placecell.pose_graph import BentMap, FoundLoop, judged
 from placecell.pose_graph.bend import PARAMETERS
 from placecell.pose_graph.frames import headings, relative, wrapped
 from service.engine import Engine
@@ -23,9 +25,6 @@ from service.merging.bending import bend_content, graph_of
 
 WRONG = (1.0, 3.0)
 """Error from which a loop is wrong, meters and degrees: that of a right pose of a localization."""
-
-DOUBLE = 0.3
-"""Distance within which two views of one thing are no double wall, meters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +35,13 @@ class DriftPlan:
         cases: towns and drives.
         percents: drifts of the odometry, percent.
         cache: folder where simulated maps are kept.
+        merges: also merge the maps of several robots, and localize in the merged map.
     """
 
     cases: Sequence[DriftCase]
     percents: Sequence[float]
     cache: Path
+    merges: bool = True
 
 
 def run_drift(plan: DriftPlan, tell: Callable[[str], None] = lambda _: None) -> dict[str, Any]:
@@ -51,6 +52,8 @@ def run_drift(plan: DriftPlan, tell: Callable[[str], None] = lambda _: None) -> 
             maps = robot_maps(case, plan.percents, plan.cache, tell)
             for percent in plan.percents:
                 row = measured(case, percent, maps[percent], engine)
+                if plan.merges and case.robots > 1:
+                    row |= merge_row(maps[percent], engine)
                 tell(
                     f"{row['case']}: {row['ate_before_m']} m before, {row['ate_after_m']} m after, "
                     f"{row['loops_accepted']} loops, {row['loops_wrong']} wrong"
@@ -65,9 +68,9 @@ def measured(
 ) -> dict[str, Any]:
     """Optimize the map of one or several robots; return its row of the report."""
     content, true = joined(maps)
-    begun = perf_counter()
+    begun, begun_cpu = perf_counter(), process_time()
     bent, after = bend_content(content, engine.model, PARAMETERS)
-    seconds = perf_counter() - begun
+    seconds, cpu_seconds = perf_counter() - begun, process_time() - begun_cpu
     wrong = wrong_loops(bent, true)
     accepted = np.array([each.verdict == "accepted" for each in bent.loops], dtype=bool)
     before, now = (
@@ -90,13 +93,46 @@ def measured(
         "ate_after_m": round(now, 3),
         "ate_after_scaled_m": round(ate_of(bent.positions, bent, content, true, scale=True), 3),
         "seconds": round(seconds, 1),
+        "cpu_seconds": round(cpu_seconds, 1),
     }
+    row |= with_outliers(bent, case.seed)
     if case.robots > 1:
         graph = graph_of(content)
         shared = shared_things(graph, true)
         moved = graph if after is None else graph.moved(bent.positions, bent.yaws)
         row["within_0_3_m"] = round(within(moved, shared), 4)
     return row
+
+
+def with_outliers(bent: BentMap, seed: int) -> dict[str, Any]:
+    """Judge the loops again with as many random ones; return the keys that the report has for it.
+
+    `outliers_change` is the distance between the two results, as a share of the distance by which
+    the optimization moves captures, both root mean square.
+    """
+    loops = [each.loop for each in bent.loops]
+    rng = np.random.default_rng([seed, 100])
+    again = judged(bent.frames, [*loops, *outliers(len(loops), len(bent.frames), rng)], PARAMETERS)
+    accepted = sum(each.verdict == "accepted" for each in again.loops[len(loops) :])
+    change = np.sqrt(((again.positions - bent.positions) ** 2).sum(axis=1).mean())
+    moved = np.sqrt((bent.moved**2).mean())
+    return {
+        "outliers": len(loops),
+        "outliers_accepted": accepted,
+        "outliers_change": round(float(change / moved), 5) if moved > 0 else 0.0,
+    }
+
+
+def outliers(count: int, frames: int, rng: np.random.Generator) -> list[FoundLoop]:
+    """Return random loops between random captures, at most 30 m apart along each axis."""
+    found = []
+    for _ in range(count):
+        one, other = rng.choice(frames, 2, replace=False).tolist()
+        place = np.append(rng.uniform(-30.0, 30.0, 2), 0.0)
+        yaw = float(rng.uniform(-np.pi, np.pi))
+        covariance = np.diag([0.01, 0.01, 0.01, 1e-4])
+        found.append(FoundLoop(one, other, place, yaw, covariance, 0.99, 20))
+    return found
 
 
 def joined(maps: Sequence[TrueMap]) -> tuple[CompactMap, Float64]:
@@ -164,37 +200,3 @@ def ate_of(
         errors.append(absolute_error(positions[rows], true[rows, :3, 3], scale=scale).rmse)
         squares += len(rows) * errors[-1] ** 2
     return float(np.sqrt(squares / len(positions)))
-
-
-def shared_things(graph: GraphMap, true: Float64) -> Int64:
-    """Return pairs of segments of different robots that show the same thing, int64 (p, 2).
-
-    They are the nearest segments of each other where the robots truly were, within 0.3 m and seen
-    from within 10 m of each other.
-    """
-    from scipy.spatial import cKDTree
-
-    frames = graph.frames
-    there = graph.moved(true[:, :3, 3], headings(true[:, :3, :3])).centroids
-    tracks = frames.odometry.tracks[graph.captures]
-    spots = true[graph.captures, :3, 3]
-    pairs = []
-    names = np.unique(tracks)
-    for place, one in enumerate(names):
-        for other in names[place + 1 :]:
-            here, away = np.flatnonzero(tracks == one), np.flatnonzero(tracks == other)
-            near, found = cKDTree(there[away]).query(there[here])
-            _, back = cKDTree(there[here]).query(there[away])
-            mutual = (back[found] == np.arange(len(here))) & (near <= DOUBLE)
-            both = np.column_stack([here[mutual], away[found[mutual]]])
-            close = np.linalg.norm(spots[both[:, 0]] - spots[both[:, 1]], axis=1) <= 10.0
-            pairs.append(both[close])
-    return np.concatenate(pairs) if pairs else np.zeros((0, 2), dtype=np.int64)
-
-
-def within(graph: GraphMap, pairs: Int64) -> float:
-    """Return the share of pairs of segments that lie within 0.3 m of each other in a map."""
-    if not len(pairs):
-        return 0.0
-    apart = np.linalg.norm(graph.centroids[pairs[:, 0]] - graph.centroids[pairs[:, 1]], axis=1)
-    return float((apart <= DOUBLE).mean())

@@ -43,9 +43,14 @@ class MapSide:
     view: MapView
 
     @classmethod
-    def of(cls, snapshot: MapSnapshot) -> "MapSide":
-        """Prepare a map."""
+    def of(
+        cls,
+        snapshot: MapSnapshot,
+        prepare: Callable[[CompactMap], CompactMap] | None = None,
+    ) -> "MapSide":
+        """Prepare a map; `prepare` may change the poses of its captures."""
         content = snapshot.layers.content()
+        content = content if prepare is None else prepare(content)
         viewpoints = content.frame_positions[content.frame_index]
         return cls(snapshot, content, MapView(content.centroids, viewpoints))
 

@@ -22,6 +22,7 @@ from placecell.pose_graph import (
 )
 from placecell.pose_graph.frames import headings
 from placecell.pose_graph.loops import chosen_captures
+from placecell.pose_graph.odometry_correction import with_corrected_odometry
 from placecell.pose_graph.optimize import solver
 from service.core.problems import Problem
 from service.inference.model_registry import Model
@@ -82,20 +83,22 @@ def graph_of(content: CompactMap) -> GraphMap:
     return GraphMap(frames, content.centroids, content.frame_index.astype(np.int64))
 
 
-def bent_content(content: CompactMap, graph: GraphMap, bent: BentMap) -> CompactMap:
-    """Return the map with its captures at the optimized poses, in canonical form.
+def bent_content(
+    content: CompactMap, graph: GraphMap, positions: Float64, yaws: Float64
+) -> CompactMap:
+    """Return the map with its captures at other positions and headings, in canonical form.
 
     Segments keep their place relative to their capture's sensor. The odometry of the captures stays
     as it was, so that a later optimization begins with the same one.
     """
-    moved = graph.moved(bent.positions, bent.yaws)
-    turns = Rotation.from_euler("z", (bent.yaws - graph.frames.yaws)[:, None])
+    moved = graph.moved(positions, yaws)
+    turns = Rotation.from_euler("z", (yaws - graph.frames.yaws)[:, None])
     turned = turns * Rotation.from_quat(content.frame_orientations)
     odometry = graph.frames.odometry
     after = replace(
         content,
         centroids=moved.centroids,
-        frame_positions=bent.positions,
+        frame_positions=positions,
         frame_orientations=turned.as_quat().astype(np.float32),
         frame_tracks=odometry.tracks.astype(np.uint32),
         frame_odometry=np.column_stack([odometry.positions, odometry.yaws, odometry.variances]),
@@ -125,7 +128,28 @@ def bend_content(
     bent = bend(graph, search, parameters, model.confidence)
     if not len(bent.moved) or bent.moved.max() <= parameters.settled:
         return bent, None
-    return bent, bent_content(content, graph, bent)
+    return bent, bent_content(content, graph, bent.positions, bent.yaws)
+
+
+AS_DRIVEN = 1e-3
+"""Distance between a capture and its odometry up to which it was not moved yet, meters."""
+
+
+def straightened(content: CompactMap) -> CompactMap:
+    """Return a robot's map with its odometry corrected by segments that were seen several times.
+
+    A map that drifts less is aligned with others more easily. A map whose captures were moved
+    already stays as it is.
+    """
+    graph = graph_of(content)
+    driven = graph.as_driven()
+    moved = np.linalg.norm(driven.frames.positions - graph.frames.positions, axis=1)
+    if not len(moved) or moved.max() > AS_DRIVEN:
+        return content
+    frames = with_corrected_odometry(driven, PoseGraphParameters()).frames
+    if frames is driven.frames:
+        return content
+    return bent_content(content, graph, frames.positions, frames.yaws)
 
 
 @dataclass(frozen=True, slots=True)

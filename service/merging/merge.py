@@ -15,7 +15,7 @@ from service.maps.store import OutOfIdsError
 from service.maps.writes.deduplication import RADIUS, SameView
 from service.maps.writes.writer import MapWriter, WriteResult, out_of_ids
 from service.merging.alignment import CancellationCheck, check_same_model
-from service.merging.bending import bend_content
+from service.merging.bending import bend_content, straightened
 from service.merging.join import (
     ROUNDED,
     MergePart,
@@ -142,7 +142,8 @@ class Merger:
         # Checked again when the map is written, which may be minutes later.
         self.writer.conditions.check(None if target is None else target.tag)
         model = self.writer.models.named(aligned[0].model_id)
-        plan = plan_merge(aligned, model, self.parameters, self.check)
+        prepare = None if self.rigid else straightened
+        plan = plan_merge(aligned, model, self.parameters, self.check, prepare)
         before: dict[int, Pose] = {}
         if target is not None and aligned[0] is target:
             before = self._known_poses(plan)

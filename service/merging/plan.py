@@ -1,7 +1,9 @@
 """Merge plan: aligns every pair of maps and checks loop consistency."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+
+from placecell_client import CompactMap
 
 from placecell.localization import Pose
 from placecell.map_alignment import (
@@ -70,9 +72,18 @@ def plan_merge(
     model: Model,
     parameters: AlignmentParameters,
     check: CancellationCheck,
+    prepare: Callable[[CompactMap], CompactMap] | None = None,
 ) -> MergePlan:
-    """Align all pairs, reject inconsistent alignments, and place connected maps in the first."""
-    sides = tuple(MapSide.of(snapshot) for snapshot in maps)
+    """Align all pairs, reject inconsistent alignments, and place connected maps in the first.
+
+    Args:
+        maps: the maps.
+        model: model of their descriptors.
+        parameters: parameters of the alignments.
+        check: raises `Cancelled` if the deadline passed or the client disconnected.
+        prepare: function that changes the poses of each map's captures first; None: they stay.
+    """
+    sides = tuple(MapSide.of(snapshot, prepare) for snapshot in maps)
     found: dict[tuple[int, int], MapAlignment] = {}
     for one in range(len(sides) - 1):
         found |= _with_later(one, sides, model, parameters, check)

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from benchmarks.drift import drift as measurement
 from benchmarks.drift.drift import DriftPlan, measured, run_drift
 from benchmarks.drift.drifting_odometry import WanderingOdometry
+from benchmarks.drift.merging import merge_row
 from benchmarks.drift.town_maps import DriftCase, TrueMap, robot_maps
 from cli import app
 from placecell.core.types import Float64
@@ -49,6 +50,28 @@ def test_loops_and_errors_of_robots_are_counted(model: Path) -> None:
     assert both["loops_accepted"] > 10
     assert both["parts"] == 1
     assert both["within_0_3_m"] > 0.8
+    assert both["outliers"] == both["loops_found"]
+    assert both["outliers_accepted"] == 0
+    assert both["outliers_change"] < 0.1
+
+
+def test_maps_are_merged_and_localized_in(model: Path) -> None:
+    with Engine.temporary(model) as engine:
+        maps = [
+            TrueMap(
+                drifting_map(engine.model.id, seed, 1, robot=name, odometry=True)[0],
+                true_poses(1),
+                480.0,
+            )
+            for seed, name in ((1, "ann"), (2, "bob"))
+        ]
+        row = merge_row(maps, engine)
+        assert all(engine.maps.find(name) is None for name in ("drift-0", "drift-1"))
+    assert row["merged_maps"] == 2
+    assert row["merged_within_0_3_m"] > 0.5
+    assert row["localized_queries"] == 48
+    assert row["localized_merged_wrong"] == row["localized_undrifted_wrong"] == 0
+    assert row["localized_merged"] >= row["localized_undrifted"] - 0.1
 
 
 def test_town_is_simulated_once_and_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
