@@ -580,9 +580,11 @@ class Engine:
         """Return the versions of a map that are kept, oldest first."""
         return commits_of(self.maps.store, self.maps.get(name))
 
-    def changes(self, name: str, since: str | int = 0, limit: int = 20_000) -> SyncPage:
+    def changes(
+        self, name: str, since: str | int = 0, limit: int = 20_000, moved: bool = False
+    ) -> SyncPage:
         """Return the first page of a map's changes since a version; see `MapSync.first_page`."""
-        return self.sync.first_page(self.maps.get(name), f"{since}", limit)
+        return self.sync.first_page(self.maps.get(name), f"{since}", limit, moved)
 
     def merge_maps(
         self,

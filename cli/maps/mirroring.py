@@ -155,7 +155,7 @@ class Mirror:
         while True:
             request = copy.request
             try:
-                page = self._remote.changes(self._name, *request)
+                page = self._remote.changes(self._name, *request, moved=True)
             except ServiceError as error:
                 if error.status != GONE or not copy.restart():
                     raise

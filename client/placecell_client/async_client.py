@@ -267,9 +267,11 @@ class AsyncClient(BaseClient):
         since: int | str = 0,
         cursor: str | None = None,
         limit: int = PAGE_SEGMENTS,
+        *,
+        moved: bool = False,
     ) -> ChangesPage:
         """See `Client.changes`."""
-        return await self._send(self._calls.changes(name, since, cursor, limit))
+        return await self._send(self._calls.changes(name, since, cursor, limit, moved))
 
     async def get_map(self, name: str, version: int | None = None) -> CompactMap:
         """See `Client.get_map`."""

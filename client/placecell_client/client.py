@@ -478,6 +478,8 @@ class Client(BaseClient):
         since: int | str = 0,
         cursor: str | None = None,
         limit: int = PAGE_SEGMENTS,
+        *,
+        moved: bool = False,
     ) -> ChangesPage:
         """Return one page of the changes of a map; `pull` combines all pages.
 
@@ -486,8 +488,10 @@ class Client(BaseClient):
             since: ETag or sequence number of the known version; 0 requests the whole map.
             cursor: Cursor of the page, from the page before it; None requests the first page.
             limit: Largest number of segments per page.
+            moved: Receive captures that moved (`Delta.moved`) instead of all their segments, from
+                services that can; `apply` and `MapCopy` know them.
         """
-        return self._send(self._calls.changes(name, since, cursor, limit))
+        return self._send(self._calls.changes(name, since, cursor, limit, moved))
 
     def get_map(self, name: str, version: int | None = None) -> CompactMap:
         """Download a map and decode it.

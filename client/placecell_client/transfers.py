@@ -86,7 +86,7 @@ def pull(calls: Calls, copy: MapCopy | str, limit: int) -> Steps[MapCopy]:
     while True:
         since, cursor = copy.request
         try:
-            page = yield calls.changes(copy.name, since, cursor, limit)
+            page = yield calls.changes(copy.name, since, cursor, limit, moved=True)
         except ServiceError as error:
             if error.status != GONE or not copy.restart():
                 raise

@@ -8,6 +8,7 @@ from zlib import crc32
 import numpy as np
 from placecell_client import CompactMap
 from placecell_client.maps.canonical import canonical
+from placecell_client.maps.moved_captures import moved_centroids
 from scipy.spatial.transform import Rotation
 
 from placecell.core.types import Float64, Int64
@@ -88,18 +89,27 @@ def bent_content(
 ) -> CompactMap:
     """Return the map with its captures at other positions and headings, in canonical form.
 
-    Segments keep their place relative to their capture's sensor. The odometry of the captures stays
-    as it was, so that a later optimization begins with the same one.
+    Segments keep their place relative to their capture's sensor, by the rule of delta files
+    (`moved_centroids`). The odometry of the captures stays as it was, so that a later optimization
+    begins with the same one.
     """
-    moved = graph.moved(positions, yaws)
     turns = Rotation.from_euler("z", (yaws - graph.frames.yaws)[:, None])
-    turned = turns * Rotation.from_quat(content.frame_orientations)
+    turned = (turns * Rotation.from_quat(content.frame_orientations)).as_quat().astype(np.float32)
+    still = (positions == content.frame_positions).all(axis=1) & (yaws == graph.frames.yaws)
+    turned[still] = content.frame_orientations[still]
     odometry = graph.frames.odometry
+    rows = content.frame_index
     after = replace(
         content,
-        centroids=moved.centroids,
+        centroids=moved_centroids(
+            content.centroids,
+            content.frame_positions[rows],
+            content.frame_orientations[rows],
+            positions[rows],
+            turned[rows],
+        ),
         frame_positions=positions,
-        frame_orientations=turned.as_quat().astype(np.float32),
+        frame_orientations=turned,
         frame_tracks=odometry.tracks.astype(np.uint32),
         frame_odometry=np.column_stack([odometry.positions, odometry.yaws, odometry.variances]),
     )

@@ -73,7 +73,7 @@ def small_pages(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         Client,
         "changes",
-        lambda self, name, since, cursor: whole(self, name, since, cursor, 10),
+        lambda self, name, since, cursor, moved: whole(self, name, since, cursor, 10, moved=moved),
     )
 
 

@@ -7,9 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from placecell_client import CompactMap, Delta, decode, encode, encode_delta
+from placecell_client import CompactMap, Delta, decode, decode_delta, encode, encode_delta
 from placecell_client.maps import container, delta_file, map_file
+from placecell_client.maps.canonical import canonical
 from placecell_client.maps.compact_map import OPTIONAL
+from placecell_client.maps.edit import apply
 
 from tests.client.file_surgery import compact_json, inner_header
 from tests.client.map_builders import random_map
@@ -55,6 +57,22 @@ def test_example_on_the_page_equals_the_codecs_bytes() -> None:
 def test_delta_header_on_the_page_equals_the_codecs() -> None:
     data = encode_delta(Delta(EXAMPLE, np.array([4, 5, 9], np.uint32), 3, 5))
     assert block("delta").replace("\n", "") == compact_json(inner_header(data))
+
+
+def test_moved_captures_on_the_page_equal_the_codecs_bytes() -> None:
+    data = b""
+    for line in block("moved").splitlines():
+        parts = re.fullmatch(LINE.replace("{0,3}", "{0,4}"), line)
+        assert parts is not None, line
+        assert int(parts[1]) == len(data), line
+        data += parts[2].encode() if parts[2] else bytes.fromhex(parts[3])
+    before, delta = canonical(EXAMPLE), decode_delta(data)
+    assert delta.moved is not None
+    assert encode_delta(delta) == data
+    after = apply(before, delta)
+    assert after.centroids.tolist() == [[-6.96, -4.47, 0.25], [-2.2, -0.65, 3.0]]
+    told = "segment 3 comes to -6.96, -4.47, 0.25 m, and segment 7 to -2.20, -0.65, 3.00 m"
+    assert told in TEXT
 
 
 def test_columns_on_the_page_equal_the_codecs() -> None:

@@ -344,10 +344,11 @@ class Calls:
         return Call("GET", _path(name, version=version), parsing.file)
 
     def changes(
-        self, name: str, since: int | str, cursor: str | None, limit: int
+        self, name: str, since: int | str, cursor: str | None, limit: int, moved: bool
     ) -> Call[ChangesPage]:
         """Build `GET /maps/{map}/changes`."""
-        path = _path(name, "/changes", since=since, cursor=cursor, limit=limit)
+        told = "true" if moved else None
+        path = _path(name, "/changes", since=since, cursor=cursor, limit=limit, moved=told)
         return Call("GET", path, parsing.page)
 
     def reserve_ids(self, name: str, count: int) -> Call[NDArray[np.uint32]]:

@@ -77,7 +77,7 @@ def frame_rows(compact_map: CompactMap) -> NDArray[np.float64]:
     parts: list[NDArray[Any]] = [
         compact_map.frame_times,
         compact_map.frame_positions,
-        _one_sign(compact_map.frame_orientations),
+        one_sign(compact_map.frame_orientations),
     ]
     if compact_map.frame_tracks is not None and compact_map.frame_odometry is not None:
         parts += [compact_map.frame_tracks, compact_map.frame_odometry]
@@ -143,7 +143,7 @@ def _used(indices: NDArray[np.integer], size: int) -> NDArray[np.bool_]:
     return used
 
 
-def _one_sign(orientations: NDArray[np.float32]) -> NDArray[np.float32]:
+def one_sign(orientations: NDArray[np.float32]) -> NDArray[np.float32]:
     """Choose between q and -q (the same rotation): make the last non-zero component positive."""
     last = np.zeros(len(orientations), dtype=np.float32)
     for component in orientations.T:

@@ -18,7 +18,8 @@ from placecell_client.maps.compact_map import (
     MapFileError,
     is_ascending,
 )
-from placecell_client.maps.container import Content, FileFormat
+from placecell_client.maps.container import Columns, Content, FileFormat
+from placecell_client.maps.moved_captures import MovedCaptures
 
 FORMAT = "placecell-delta"
 VERSION = 1
@@ -26,8 +27,21 @@ MEDIA_TYPE = "application/vnd.placecell.delta"
 SEQUENCE_LIMIT = 1 << 53
 """Upper bound of sequence numbers: JSON readers in other languages round larger integers."""
 
+MOVED = {
+    "moved_ids": ("ids", np.uint32),
+    "moved_positions": ("positions", np.float64),
+    "moved_orientations": ("orientations", np.float32),
+    "moved_tracks": ("tracks", np.uint32),
+    "moved_odometry": ("odometry", np.float64),
+}
+"""Columns of moved captures: attribute of `MovedCaptures`, and type."""
+
 _DELTA_FILE = FileFormat(
-    FORMAT, "delta file", VERSION, REQUIRED | {"removed"}, frozenset({*OPTIONAL, *ODOMETRY_COLUMNS})
+    FORMAT,
+    "delta file",
+    VERSION,
+    REQUIRED | {"removed"},
+    frozenset({*OPTIONAL, *ODOMETRY_COLUMNS, *MOVED}),
 )
 
 
@@ -44,12 +58,15 @@ class Delta:
             map.
         until: Sequence number after the changes. 0 with `since` 0: the delta applies to any
             version.
+        moved: Captures that moved with all segments that are neither changed nor removed; only
+            between two versions. None: no capture moved.
     """
 
     changed: CompactMap
     removed: NDArray[np.uint32]
     since: int = 0
     until: int = 0
+    moved: MovedCaptures | None = None
 
     @property
     def is_whole(self) -> bool:
@@ -57,7 +74,7 @@ class Delta:
         return self.since == 0 < self.until
 
     def __len__(self) -> int:
-        """Return the number of changed and removed segments."""
+        """Return the number of changed and removed segments, without those of moved captures."""
         return len(self.changed) + len(self.removed)
 
     def check(self) -> None:
@@ -82,6 +99,10 @@ class Delta:
             raise MapFileError(
                 "removed: expected no ids in a delta that holds the whole map (since 0)"
             )
+        if self.moved is not None:
+            self.moved.check()
+            if not self.since:
+                raise MapFileError("moved_ids: captures move only between two versions of a map")
 
 
 def encode_delta(delta: Delta) -> bytes:
@@ -106,6 +127,7 @@ def decode_delta(data: bytes) -> Delta:
         removed=columns["removed"].astype(np.uint32, copy=False),
         since=header.get("since", -1),
         until=header.get("until", -1),
+        moved=_moved_of(columns),
     )
     if not container.is_file_of(data, _content(delta), checksum):
         raise MapFileError("the file is not in canonical form: encode the delta again")
@@ -123,4 +145,30 @@ def _content(delta: Delta) -> Content:
         "removed": len(delta.removed),
     }
     columns = columns_of(ordered) | {"removed": delta.removed.astype("<u4", copy=False)}
+    if delta.moved is not None:
+        header["moved"] = len(delta.moved)
+        columns |= _moved_columns(delta.moved.canonical())
     return Content(header | header_of(ordered), columns)
+
+
+def _moved_of(columns: Columns) -> MovedCaptures | None:
+    """Return the moved captures of a file; None if it has none of their columns."""
+    found = {
+        attribute: columns[name].astype(dtype, copy=False)
+        for name, (attribute, dtype) in MOVED.items()
+        if name in columns
+    }
+    if not found:
+        return None
+    if not {"ids", "positions", "orientations"} <= found.keys():
+        raise MapFileError("moved_ids, moved_positions, moved_orientations: expected all or none")
+    return MovedCaptures(**found)
+
+
+def _moved_columns(moved: MovedCaptures) -> Columns:
+    columns: Columns = {}
+    for name, (attribute, dtype) in MOVED.items():
+        column = getattr(moved, attribute)
+        if column is not None:
+            columns[name] = column.astype(np.dtype(dtype).newbyteorder("<"), copy=False)
+    return columns

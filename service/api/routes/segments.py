@@ -199,6 +199,14 @@ async def changes(
     limit: Annotated[
         int, Query(ge=1, le=100_000, description="Largest number of segments in a part.")
     ] = 20_000,
+    moved: Annotated[
+        bool,
+        Query(
+            description="Tell captures that moved (columns `moved_...` of the delta file) instead "
+            "of all their segments. Readers of earlier releases do not know these columns. A "
+            "cursor keeps the choice of the first part."
+        ),
+    ] = False,
 ) -> Response:
     """Return the changes as one or more delta files: parts of the way to one newer version.
 
@@ -209,7 +217,9 @@ async def changes(
     principal.check_map(name)
     snapshot = state.engine.maps.get(name)
     async with state.lanes.reads.enter(request):
-        page, content = await state.run(_page, state, principal, snapshot, since, cursor, limit)
+        page, content = await state.run(
+            _page, state, principal, snapshot, since, cursor, limit, moved
+        )
     headers = {
         "ETag": f'"{page.tag}"',
         "Placecell-Since": str(page.delta.since),
@@ -227,10 +237,11 @@ def _page(
     since: str,
     cursor: str | None,
     limit: int,
+    moved: bool,
 ) -> tuple[SyncPage, bytes]:
     """Return one page of the changes, and its delta file."""
     if cursor is None:
-        page = state.engine.sync.first_page(snapshot, since, limit)
+        page = state.engine.sync.first_page(snapshot, since, limit, moved)
     else:
         page = state.engine.sync.next_page(snapshot, cursor, limit)
     return page, encode_delta(hide_names_in_delta(principal, snapshot.head.uid, page.delta))

@@ -1,13 +1,23 @@
 """`/maps/{map}/optimize` over HTTP, with maps of robots that drift around a block."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from placecell_client import CompactMap, Delta, decode, encode_delta
+from placecell_client import (
+    ChangesPage,
+    CompactMap,
+    Delta,
+    MapCopy,
+    decode,
+    decode_delta,
+    encode,
+    encode_delta,
+)
 from placecell_client.maps.canonical import canonical
-from placecell_client.maps.edit import take
+from placecell_client.maps.edit import apply, take
 
 from placecell.descriptors.manifest import Manifest
 from placecell.pose_graph import PoseGraphUnavailableError
@@ -242,3 +252,55 @@ def test_cancelled_optimization_stops_and_writes_nothing(
     response = service.post("/maps/block/optimize", headers={"Placecell-Timeout": "0.3"})
     assert response.status_code == 504
     assert decode(service.get("/maps/block").content).frame_tracks is None
+
+
+def pulled(service: Any, old: CompactMap, **asked: Any) -> tuple[CompactMap, int, list[Delta]]:
+    """Update a copy of version 1; return it, the bytes that it took, and the pages."""
+    copy = MapCopy("block", old, service.get("/maps/block/versions").json()["versions"][-1]["etag"])
+    size, pages = 0, []
+    while True:
+        since, cursor = copy.request
+        more = {} if cursor is None else {"cursor": cursor}
+        answer = service.get("/maps/block/changes", params={"since": since} | more | asked)
+        assert answer.status_code == 200, answer.text
+        size += len(answer.content)
+        pages.append(decode_delta(answer.content))
+        etag, following = answer.headers["ETag"].strip('"'), answer.headers.get("Placecell-Next")
+        if copy.take(ChangesPage(pages[-1], etag, following)):
+            assert copy.content is not None
+            return copy.content, size, pages
+
+
+def test_pull_after_an_optimization_carries_captures_and_not_segments(
+    service: Any, manifest: Manifest
+) -> None:
+    given, _ = drifting_map(manifest.model_id, seed=1, side=10, odometry=True)
+    put(service, "block", given)
+    optimize(service)
+    edited = take(canonical(given), slice(0, 3))
+    edited = replace(edited, codes=np.ones_like(edited.codes))
+    edit = encode_delta(Delta(edited, given.ids[10:12]))
+    assert service.post("/maps/block/segments", content=edit).is_success
+    whole = service.get("/maps/block").content
+    plain, many, pages = pulled(service, given)
+    assert encode(plain) == whole
+    assert {page.moved for page in pages} == {None}
+    for limit in (20_000, 7):  # in one part and in many
+        content, few, pages = pulled(service, given, moved=True, limit=limit)
+        assert encode(content) == whole
+        assert sum(len(page) for page in pages) == 5
+        assert sum(0 if page.moved is None else len(page.moved) for page in pages) > 70
+    assert len(pages) > 10
+    _, few, _ = pulled(service, given, moved=True)
+    assert few < 0.3 * many
+
+
+def test_pull_after_the_undo_of_an_optimization(service: Any, manifest: Manifest) -> None:
+    given, _ = drifting_map(manifest.model_id, seed=1, side=10, odometry=True)
+    put(service, "block", given)
+    told = optimize(service)
+    moved = service.get("/maps/block").content
+    service.post(f"/maps/block/versions/{told['previous']}/restore")
+    answer = service.get("/maps/block/changes", params={"since": told["etag"], "moved": True})
+    back = apply(decode(moved), decode_delta(answer.content))
+    assert encode(back) == service.get("/maps/block").content == encode(given)
