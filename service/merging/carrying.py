@@ -62,8 +62,15 @@ def _planned(
     put: list[tuple[str, str, dict[str, Any]]] = []
     for number in merged.outcomes:
         part, pose = merged.plan.maps[number], merged.plan.poses[number]
+        # The captures of a map that drifted may have been moved before it was aligned.
+        own = None
+        if len(annotations.of(part)):
+            own = CaptureMovement(part.layers.content(), merged.plan.sides[number].content)
         found = annotations.geo_anchor(part)
         if found is not None:
+            if own is not None:
+                move = own.at(np.array(found.position))
+                found = found.moved(move.rotation, move.translation)
             placed = found.moved(pose.rotation, pose.translation)
             if bent is not None:
                 move = bent.at(np.array(placed.position))
@@ -75,7 +82,8 @@ def _planned(
         for key, each in annotations.of(part).named.items():
             if each.frame != part.frame:
                 continue
-            there = pose.after(each.pose)
+            here = each.pose if own is None else own.at(each.pose.translation).after(each.pose)
+            there = pose.after(here)
             if bent is not None:
                 there = bent.at(there.translation).after(there)
             outcomes.append(_named_outcome(part, key, there, named, taken))
