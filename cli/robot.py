@@ -66,6 +66,14 @@ def robot(
         str | None,
         typer.Option(metavar="NAME", help="Name of the robot. (default: that of the source)"),
     ] = None,
+    keep_moving: Annotated[
+        bool,
+        typer.Option(
+            "--keep-moving/--drop-moving",
+            help="Keep segments that move while they are seen, such as cars. By default, they are "
+            "neither stored nor localized.",
+        ),
+    ] = False,
     keyframe_meters: Annotated[
         float,
         typer.Option(
@@ -174,6 +182,7 @@ def robot(
             upload=upload,
             localize_map=localize_map,
             upload_map=upload_map,
+            keep_moving=keep_moving,
             keyframe_meters=keyframe_meters,
             localize_meters=localize_meters,
             spool_bytes=int(spool_mb * 1e6),

@@ -259,6 +259,7 @@ class RobotAgent:
             keyframe_meters=settings.keyframe_meters,
             model_id=self._engine.model_id,
             preprocessing=self._engine.preprocessing,
+            keep_moving=settings.keep_moving,
         )
         return begun, 0
 

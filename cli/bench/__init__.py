@@ -15,6 +15,7 @@ from cli.bench.ladder import ladder
 from cli.bench.live import live
 from cli.bench.localize import localize
 from cli.bench.maps import maps
+from cli.bench.moving import moving
 from cli.bench.page import page
 from cli.bench.peers import peers
 from cli.bench.persistent import persistent
@@ -62,4 +63,5 @@ bench.command("json")(json_requests)
 bench.command()(read)
 bench.command()(takes_drives(robot))
 bench.command()(takes_drives(persistent))
+bench.command()(takes_drives(moving))
 bench.command()(page)

@@ -58,6 +58,7 @@ class AgentSettings:
         localize_map: map to localize in; None: `map`.
         upload_map: map that receives the segments; None: `map`. If a map of that name is another's,
             the robot begins one with the next free name, such as `map-robot`.
+        keep_moving: store and localize segments that move while they are seen, such as cars.
         keyframe_meters: distance between two keyframes, at which segments are extracted.
         localize_meters: distance between two requests while tracking; until then each keyframe
             makes one.
@@ -77,6 +78,7 @@ class AgentSettings:
     upload: bool = True
     localize_map: str | None = None
     upload_map: str | None = None
+    keep_moving: bool = False
     keyframe_meters: float = 2.0
     localize_meters: float = 4.0
     spool_bytes: int = 1 << 30

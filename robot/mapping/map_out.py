@@ -14,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from placecell.core.types import Float64, Int8, Int64
 
+NO_IDS = np.zeros(0, dtype=np.int64)
 VIEW_METERS = 10.0
 """Distance after which a segment is stored again, as it looks from there, meters."""
 
@@ -83,7 +84,8 @@ class EditMaker:
 
     A segment is sent when it is first seen, and again as another view after each 10 m of the way.
     The robot begins each map and numbers its views from 0, so no other robot has the same ids. The
-    service leaves out views that it has already, and keeps at most eight of an object.
+    service leaves out views that it has already, and keeps at most eight of an object. If a
+    segment moves, an edit removes the views of it that were sent before.
 
     Attributes:
         part: number of the map that is written now.
@@ -97,6 +99,7 @@ class EditMaker:
         self.sequence = 0
         self._next_id = 0
         self._viewed_at: dict[int, float] = {}
+        self._stored: dict[int, list[int]] = {}  # ids in the map of each segment's views
 
     @property
     def frame(self) -> str:
@@ -108,14 +111,17 @@ class EditMaker:
         seen: SeenSegments,
         capture: Capture,
         meters: float,
+        moved: Int64 = NO_IDS,
     ) -> MapEdit | None:
         """Return the edit with the new views of a keyframe; None if there is none.
 
         Args:
-            seen: segments around the robot.
+            seen: segments around the robot that did not move.
             capture: moment of the keyframe.
             meters: distance driven until then.
+            moved: ids of segments that have moved, int64 (m,): their views leave the map.
         """
+        left = [view for each in moved.tolist() for view in self._stored.pop(each, ())]
         before = self._viewed_at
         ids = seen.ids.tolist()
         chosen = [
@@ -126,7 +132,10 @@ class EditMaker:
         # A segment that was not found again does not come back under its old id.
         self._viewed_at = {each: before[each] for each in ids if each in before}
         self._viewed_at |= {ids[row]: meters for row in chosen}
-        if not chosen:
+        self._stored = {each: self._stored.get(each, []) for each in self._viewed_at}
+        for number, row in enumerate(chosen):
+            self._stored[ids[row]].append(self._next_id + number)
+        if not chosen and not left:
             return None
         count = len(chosen)
         pose = capture.odom_pose
@@ -138,7 +147,7 @@ class EditMaker:
             codes=seen.codes[chosen],
             centroids=seen.centroids[chosen],
             ids=np.arange(self._next_id, self._next_id + count, dtype=np.uint32),
-            robots=(self._robot,),
+            robots=(self._robot,) if count else (),
             robot=np.zeros(count, dtype=np.uint16),
             frame_index=np.zeros(count, dtype=np.uint32),
             frame_times=np.array([capture.time]),
@@ -147,7 +156,7 @@ class EditMaker:
             frame_tracks=np.array([track_of(self.frame)], np.uint32),
             frame_odometry=_odometry_of(pose)[None],
         )
-        content = encode_delta(Delta(segments, np.zeros(0, dtype=np.uint32)))
+        content = encode_delta(Delta(segments, np.array(sorted(left), dtype=np.uint32)))
         edit = MapEdit(self.sequence, self.part, content, count)
         self.sequence += 1
         self._next_id += count
@@ -158,3 +167,4 @@ class EditMaker:
         self.part += 1
         self._next_id = 0
         self._viewed_at.clear()
+        self._stored.clear()

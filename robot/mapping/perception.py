@@ -18,7 +18,7 @@ from robot.localization.scan_jump import ScanAgreement, object_columns
 from robot.mapping.keyframes import Keyframes
 from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
 
-VERSION = 1
+VERSION = 2
 """Version of the checkpoints."""
 STANDING = 0.1
 """Steps below this length are noise of the odometry of a standing robot, meters."""
@@ -39,7 +39,7 @@ class Keyframe:
     """Segments around the robot at a keyframe, in the odometry frame.
 
     Attributes:
-        live: the segments.
+        live: the segments; without those that have moved, unless they are kept.
         codes: descriptors of those that have one, int8 (n, code bytes).
         centroids: their centroids, float64 (n, 3), meters.
     """
@@ -74,6 +74,7 @@ class Perception:
         meters: distance driven.
         keyframes: number of keyframes.
         part: number of jumps so far.
+        keep_moving: whether segments that move while they are seen are stored and localized.
     """
 
     map_out: EditMaker
@@ -81,6 +82,7 @@ class Perception:
     segmentation: IncrementalSegmentation
     model_id: str
     preprocessing: str
+    keep_moving: bool = False
     agreement: ScanAgreement = field(default_factory=ScanAgreement)
     scans: int = 0
     meters: float = 0.0
@@ -100,14 +102,16 @@ class Perception:
         keyframe_meters: float,
         model_id: str,
         preprocessing: str,
+        keep_moving: bool = False,
     ) -> Self:
-        """Begin a session."""
+        """Begin a session; `keep_moving` keeps segments that move while they are seen."""
         return cls(
             EditMaker(robot, session),
             Keyframes(keyframe_meters, max(1, parameters.accumulated_scans // 2)),
             IncrementalSegmentation(parameters),
             model_id,
             preprocessing,
+            keep_moving,
         )
 
     @classmethod
@@ -172,11 +176,15 @@ class Perception:
 
     def _keyframe(self, describe: Describe, capture: Capture) -> tuple[Keyframe, MapEdit | None]:
         self.keyframes += 1
-        live = self.segmentation.segments()
+        every = self.segmentation.segments()
+        moves = every.moved & (not self.keep_moving)
+        live = every.take(np.flatnonzero(~moves))
         self.segmentation.take_final_views()  # Views of all sides are stored, not only the best.
         codes, centroids, usable = describe(clouds_of(live), live.segments.sensors)
         seen = SeenSegments(live.ids[usable], codes, centroids, self.model_id, self.preprocessing)
-        return Keyframe(live, codes, centroids), self.map_out.add(seen, capture, self.meters)
+        return Keyframe(live, codes, centroids), self.map_out.add(
+            seen, capture, self.meters, every.ids[moves]
+        )
 
     def _take(self, points: Float32, capture: Capture) -> None:
         self.segmentation.add(points, capture.odom_pose)

@@ -18,12 +18,15 @@ class LiveSegments:
         complete: bool (segments,), whether the segment was seen whole: it is clear of the local
             map's border and has stopped growing.
         scans: int64 (segments,), number of the scan at which each view was captured, from 0.
+        moved: bool (segments,), whether the segment has moved since it was first seen (see
+            `motion`). A segment that has moved once stays marked.
     """
 
     segments: Segments
     ids: Int64
     complete: Bool
     scans: Int64
+    moved: Bool
 
     def __len__(self) -> int:
         return len(self.segments)
@@ -35,6 +38,7 @@ class LiveSegments:
             self.ids[indices],
             self.complete[indices],
             self.scans[indices],
+            self.moved[indices],
         )
 
     @classmethod
@@ -50,4 +54,5 @@ class LiveSegments:
             np.concatenate([np.zeros(0, np.int64), *(part.ids for part in parts)]),
             np.concatenate([np.zeros(0, bool), *(part.complete for part in parts)]),
             np.concatenate([np.zeros(0, np.int64), *(part.scans for part in parts)]),
+            np.concatenate([np.zeros(0, bool), *(part.moved for part in parts)]),
         )

@@ -18,6 +18,7 @@ from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Float64, Int64
 from placecell.segmentation.incremental.live_segments import LiveSegments
+from placecell.segmentation.incremental.motion import Sight, in_sensor_frame
 from placecell.segmentation.incremental.tracks import (
     Track,
     label_voxels,
@@ -61,7 +62,9 @@ class IncrementalSegmentation:
         self._map.clear()
         self._shift: Float64 | None = None
         self._sensor = np.zeros(3)
+        self._newest: tuple[Float32, Float64] | None = None  # points, and pose in the local map
         self._tracks: dict[int, Track] = {}
+        self._moved: set[int] = set()
         self._ids = np.zeros(0, dtype=np.int64)  # of the voxels' labels
         self._final.clear()
 
@@ -93,6 +96,7 @@ class IncrementalSegmentation:
         self._sensor = sensor
         near = np.array(pose, dtype=np.float64)
         near[:3, 3] -= self._shift
+        self._newest = points, near
         self._map.add(transform(near, in_range(points, self.parameters)), near[:3, 3])
 
     def segments(self) -> LiveSegments:
@@ -134,6 +138,7 @@ class IncrementalSegmentation:
         chosen = np.flatnonzero(wanted)
         points = self._map.means[rows[np.repeat(wanted, counts)]]
         clear = self._is_clear(points, counts[chosen])
+        moved = self._are_moved(points, counts[chosen], ids[chosen])
         if self._shift is not None and self._shift.any():
             points = (points + self._shift).astype(np.float32)
         segments = Segments(
@@ -141,12 +146,13 @@ class IncrementalSegmentation:
             np.cumsum(counts[chosen], dtype=np.int64),
             np.tile(self._sensor.astype(np.float32), (len(chosen), 1)),
         )
-        self._keep_best(segments, ids[chosen], clear)
+        self._keep_best(segments, ids[chosen], clear, moved)
         return LiveSegments(
             segments,
             ids[chosen],
             clear & self._are_complete(ids[chosen]),
             np.full(len(chosen), self._scan, dtype=np.int64),
+            moved,
         )
 
     def take_final_views(self, at_end: bool = False) -> LiveSegments:
@@ -176,6 +182,7 @@ class IncrementalSegmentation:
             np.array([identity for identity, _, _ in final], dtype=np.int64),
             np.array([complete for _, _, complete in final], dtype=bool),
             np.array([track.scan for _, track, _ in final], dtype=np.int64),
+            np.array([track.moved for _, track, _ in final], dtype=bool),
         )
 
     def _is_clear(self, points: Float32, counts: Int64) -> Bool:
@@ -189,11 +196,21 @@ class IncrementalSegmentation:
         margin = self.parameters.growing_radius + self.parameters.map_voxel
         return np.asarray(farthest < (self.parameters.local_map_radius - margin) ** 2)
 
-    def _keep_best(self, segments: Segments, ids: Int64, clear: Bool) -> None:
+    def _are_moved(self, points: Float32, counts: Int64, ids: Int64) -> Bool:
+        """Return whether each segment has moved, now or earlier, bool (segments,)."""
+        if self._newest is None:
+            return np.zeros(len(ids), dtype=bool)
+        scan, pose = self._newest
+        now = Sight.of(scan).moved(in_sensor_frame(points, pose), np.cumsum(counts))
+        self._moved.intersection_update(self._ids.tolist())
+        self._moved.update(ids[now].tolist())
+        return np.array([each in self._moved for each in ids.tolist()], dtype=bool)
+
+    def _keep_best(self, segments: Segments, ids: Int64, clear: Bool, moved: Bool) -> None:
         """Replace the best views by better ones, and end the tracks whose ids ended."""
         sensor = self._sensor.astype(np.float32)
-        for index, (identity, is_clear) in enumerate(
-            zip(ids.tolist(), clear.tolist(), strict=True)
+        for index, (identity, is_clear, has_moved) in enumerate(
+            zip(ids.tolist(), clear.tolist(), moved.tolist(), strict=True)
         ):
             track = self._tracks.get(identity)
             voxels = int(segments.counts[index])
@@ -201,6 +218,7 @@ class IncrementalSegmentation:
                 self._tracks[identity] = Track(
                     voxels, is_clear, self._scan, sensor, segments.cloud(index).copy()
                 )
+            self._tracks[identity].moved = has_moved
         alive = set(self._ids.tolist())
         for identity in [each for each in self._tracks if each not in alive]:
             track = self._tracks.pop(identity)

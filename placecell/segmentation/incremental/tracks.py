@@ -30,6 +30,7 @@ class Track:
         sensor: float32 (3,), sensor position of the best view.
         points: float32 (n, 3), points of the best view.
         reported: whether the best view was returned by `Tracks.take_complete`.
+        moved: whether the segment has moved.
     """
 
     voxels: int
@@ -38,6 +39,7 @@ class Track:
     sensor: Float32
     points: Float32
     reported: bool = False
+    moved: bool = False
 
     def is_improved_by(self, voxels: int, clear: bool) -> bool:
         """Return whether a view is better: clear of the border, then with more voxels."""
