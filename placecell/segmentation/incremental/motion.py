@@ -78,10 +78,10 @@ class Sight:
         judged = known & (nearest > distances - MARGIN)
         gone = known & (nearest > distances + MARGIN)
         starts = np.concatenate([[0], ends[:-1]])
-        judgements = np.add.reduceat(judged, starts, dtype=np.int64)
-        enough = judgements >= np.maximum(FEWEST, JUDGED * (ends - starts))
+        judged_points = np.add.reduceat(judged, starts, dtype=np.int64)
+        enough = judged_points >= np.maximum(FEWEST, JUDGED * (ends - starts))
         return np.asarray(
-            enough & (np.add.reduceat(gone, starts, dtype=np.int64) >= GONE * judgements)
+            enough & (np.add.reduceat(gone, starts, dtype=np.int64) >= GONE * judged_points)
         )
 
 
