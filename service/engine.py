@@ -67,6 +67,7 @@ from service.maps.writes.writer import EditOptions, MapWriter, WriteResult
 from service.merging.alignment import AlignedMaps, K, MapSide, align_maps, check_same_model
 from service.merging.bending import OptimizedMap, Optimizer, check_solver, queries_of
 from service.merging.carrying import carry_anchors
+from service.merging.loop_memory import LoopMemory
 from service.merging.merge import Merger, MergeResult
 from service.search.hints import ResolvedHints, resolve, sensor_of_codes
 from service.search.localization import LocalizationResult, localize
@@ -103,6 +104,7 @@ class Engine:
         partial_uploads: map files that are uploaded in parts and are not complete.
         sync: incremental transfers of maps, for robots that keep a copy.
         sessions: results of robots' last requests.
+        loops: loops of the last optimizations of maps.
         follower: loads what other services write to the database; None without a database.
         robots: last pose and state of each robot.
         events: what happens, for clients that listen.
@@ -156,6 +158,7 @@ class Engine:
             self.sync = MapSync(store)
             self.partial_uploads = PartialUploads(settings.data_dir, limits)
             self.sessions = Sessions(limits.sessions)
+            self.loops = LoopMemory()
             self.robots = Robots(limits.robots, limits.robot_seconds)
             self.events = EventRing(limits.events, limits.event_clients)
             watch = StoreWatch(self.events, self.maps.trouble, self.maps.damaged)
@@ -642,7 +645,7 @@ class Engine:
         content = self.maps.get(name).layers.content()
         cost = cost_of_search(queries_of(content, options), len(content), options.candidates, 1)
         check_cost(cost, self.settings.limits.alignment_seconds, OPTIMIZE_SMALLER)
-        return Optimizer(writer, options, dry_run, current().check).optimize(name)
+        return Optimizer(writer, options, dry_run, current().check, self.loops).optimize(name)
 
     def check_alignments(
         self, names: Sequence[str], remedy: str, parameters: AlignmentParameters | None = None

@@ -10,6 +10,7 @@ import numpy as np
 from placecell_client import CompactMap
 from placecell_client.maps.union import union
 
+from benchmarks.drift.kiss_slam import kiss_slam_row
 from benchmarks.drift.merging import merge_row
 from benchmarks.drift.town_maps import DriftCase, TrueMap, robot_maps
 from benchmarks.drift.views import shared_things, within
@@ -36,12 +37,15 @@ class DriftPlan:
         percents: drifts of the odometry, percent.
         cache: folder where simulated maps are kept.
         merges: also merge the maps of several robots, and localize in the merged map.
+        kiss_slam: Python interpreter with the package `kiss-slam`, which then maps the same drives
+            of single robots; None: it is not compared.
     """
 
     cases: Sequence[DriftCase]
     percents: Sequence[float]
     cache: Path
     merges: bool = True
+    kiss_slam: Path | None = None
 
 
 def run_drift(plan: DriftPlan, tell: Callable[[str], None] = lambda _: None) -> dict[str, Any]:
@@ -54,6 +58,8 @@ def run_drift(plan: DriftPlan, tell: Callable[[str], None] = lambda _: None) -> 
                 row = measured(case, percent, maps[percent], engine)
                 if plan.merges and case.robots > 1:
                     row |= merge_row(maps[percent], engine)
+                if plan.kiss_slam is not None and case.robots == 1:
+                    row |= kiss_slam_row(case, maps[percent], plan.kiss_slam, plan.cache, tell)
                 tell(
                     f"{row['case']}: {row['ate_before_m']} m before, {row['ate_after_m']} m after, "
                     f"{row['loops_accepted']} loops, {row['loops_wrong']} wrong"

@@ -10,13 +10,13 @@ from placecell_client.maps.edit import apply
 
 from benchmarks.drift.drifting_odometry import WanderingOdometry
 from placecell.core.parameters import PROTOCOL_V1
-from placecell.core.types import Float64
+from placecell.core.types import Float32, Float64
 from placecell.segmentation.incremental import IncrementalSegmentation
 from robot.localization.local_engine import LocalEngine
 from robot.mapping.keyframes import Keyframes
 from robot.mapping.map_out import Capture, EditMaker, SeenSegments
 from robot.mapping.perception import clouds_of
-from town import City, Lidar, Route, sensor
+from town import City, Route, sensor
 from town.sensing.lidar import SWEEP_SECONDS
 
 KEYFRAME = 3.0
@@ -66,7 +66,8 @@ class DriftCase:
         one drives against the others, and each shares most streets with each other one.
         """
         share = self.meters / self.robots
-        city = City.build(self.seed, max(500.0, share / 2), self.look_alikes)
+        streets = share / 2 if self.robots == 1 else share
+        city = City.build(self.seed, max(500.0, streets), self.look_alikes)
         way = city.planner.every_street()
         tour = city.route(way)
         if self.robots == 1:
@@ -107,7 +108,6 @@ def robot_maps(
     A drive is simulated once for all drifts, because the scans do not depend on the odometry.
     """
     city, routes = case.routes()
-    lidar = replace(sensor("hdl-64e"), columns=COLUMNS)
     files = {
         (percent, number): cache / f"{case.name}-{percent:g}percent-{number}"
         for percent in percents
@@ -118,7 +118,7 @@ def robot_maps(
         if missing:
             cache.mkdir(parents=True, exist_ok=True)
             found = _drive(
-                city, route, lidar, case.seed * 100 + number, number, missing, tell, case.spacing
+                city, route, case.seed * 100 + number, number, missing, tell, case.spacing
             )
             for percent, (content, poses, meters) in found.items():
                 file = files[percent, number]
@@ -146,7 +146,6 @@ def _kept(file: Path) -> TrueMap:
 def _drive(
     city: City,
     route: Route,
-    lidar: Lidar,
     seed: int,
     number: int,
     percents: Sequence[float],
@@ -155,7 +154,7 @@ def _drive(
 ) -> dict[float, tuple[CompactMap, Float64, float]]:
     """Simulate a drive once, and map it with each odometry."""
     distances = np.arange(2.0, route.length() - 2.0, spacing)
-    true = route.poses(distances, lidar.height)
+    true = route.poses(distances, sensor("hdl-64e").height)
     meters = float(np.linalg.norm(np.diff(true[:, :3, 3], axis=0), axis=1).sum())
     engine = LocalEngine()
     try:
@@ -163,7 +162,7 @@ def _drive(
             _Mapper(f"robot-{number}", engine, WanderingOdometry(each).poses(true, seed))
             for each in percents
         ]
-        for scan, points in _scans(city, route, lidar, seed, distances, true):
+        for scan, (_, points) in enumerate(scans_of(city, route, seed, spacing)):
             for mapper in mappers:
                 mapper.add(scan, points, scan * spacing)
             if scan % 500 == 0:
@@ -178,15 +177,29 @@ def _drive(
         engine.close()
 
 
-def _scans(
-    city: City, route: Route, lidar: Lidar, seed: int, distances: Float64, true: Float64
-) -> Iterator[tuple[int, np.ndarray]]:
+def scans_of(
+    city: City, route: Route, seed: int, spacing: float = SPACING
+) -> Iterator[tuple[Float64, Float32]]:
+    """Simulate a drive scan by scan.
+
+    Args:
+        city: the town.
+        route: route of the robot.
+        seed: seed of the noise and of parked cars.
+        spacing: distance between two scans, meters.
+
+    Yields:
+        True pose of each scan, float64 (4, 4), and its points, float32 (n, 3), meters, deskewed.
+    """
+    lidar = replace(sensor("hdl-64e"), columns=COLUMNS)
     scenes = city.scenes(seed, lidar.max_range)
+    distances = np.arange(2.0, route.length() - 2.0, spacing)
+    true = route.poses(distances, lidar.height)
     for scan, (distance, pose) in enumerate(zip(distances, true, strict=True)):
         rng = np.random.default_rng([seed, 77, scan])
         sweep = route.poses(float(distance) + SPACING * lidar.sweep_times(), lidar.height)
         points = lidar.scan(scenes.around(pose[:2, 3]), sweep, pose, rng, 0.0)
-        yield scan, np.ascontiguousarray(points[:, :3], dtype=np.float32)
+        yield pose, np.ascontiguousarray(points[:, :3], dtype=np.float32)
 
 
 class _Mapper:

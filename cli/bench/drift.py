@@ -44,14 +44,23 @@ def drift(
     cache: Annotated[
         Path, typer.Option(metavar="FOLDER", help="Folder where simulated maps are kept.")
     ] = Path("out/drift"),
+    kiss_slam: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PYTHON",
+            help="Python interpreter of the peers' environment (make peers): KISS-SLAM maps the "
+            "drives of single robots too. (default: none)",
+        ),
+    ] = None,
     json_file: JsonFile = None,
 ) -> None:
     """Measure trajectory errors before and after the optimization of a map's pose graph.
 
     Robots drive through simulated towns with drifting odometry: a scale error that wanders, and a
     heading that walks at random. `seconds` is the time of loop search and optimization, without the
-    simulation. A simulated map is kept for the next run. The command ends with status 1 if a wrong
-    loop is accepted.
+    simulation. The maps of several robots are also merged, with `rigid: false`, and the robots are
+    localized in the merged map and in an undrifted one. A simulated map is kept for the next run.
+    The command ends with status 1 if a wrong loop is accepted.
     """
     from benchmarks.drift.drift import DriftPlan, run_drift
     from benchmarks.drift.town_maps import DriftCase
@@ -63,7 +72,8 @@ def drift(
             for each in meters or [2000.0, 5000.0, 20000.0]
             for count in robots or [1, 3]
         ]
-        report = run_drift(DriftPlan(cases, percent or [1.0, 2.0], cache), tell)
+        plan = DriftPlan(cases, percent or [1.0, 2.0], cache, kiss_slam=kiss_slam)
+        report = run_drift(plan, tell)
         write_json(report, json_file)
     table = new_table("case", "meters", "loops", "wrong", "ATE before", "after", "seconds")
     for row in report["rows"]:

@@ -16,7 +16,15 @@ from placecell.pose_graph.consistency import (
     supporters_of,
 )
 from placecell.pose_graph.frames import GraphFrames, Links
-from placecell.pose_graph.loops import FoundLoop, GraphMap, SegmentSearch, find_loops, links_of
+from placecell.pose_graph.known_loops import KnownLoops
+from placecell.pose_graph.loops import (
+    FoundLoop,
+    GraphMap,
+    SegmentSearch,
+    chosen_captures,
+    find_loops,
+    links_of,
+)
 from placecell.pose_graph.odometry_correction import with_corrected_odometry
 from placecell.pose_graph.optimize import Solution, optimize, parts_of, residuals, solver
 from placecell.pose_graph.parameters import PoseGraphParameters
@@ -57,6 +65,7 @@ class BentMap:
         parts: int64 (f,), part of the graph that each capture is in; parts are not connected.
         before: root mean square of the accepted loops' distances before the optimization, meters.
         after: the same after it.
+        known: the loops, for the next optimization of the map; None if none were searched.
     """
 
     frames: GraphFrames
@@ -66,6 +75,7 @@ class BentMap:
     parts: Int64
     before: float
     after: float
+    known: KnownLoops | None = None
 
     @property
     def moved(self) -> Float64:
@@ -89,6 +99,7 @@ def bend(
     parameters: PoseGraphParameters = PARAMETERS,
     confidence: Confidence | None = None,
     progress: Progress = silent,
+    known: KnownLoops | None = None,
 ) -> BentMap:
     """Find the loops of a map, and optimize the poses of its captures.
 
@@ -98,6 +109,8 @@ def bend(
         parameters: constants of the pose graph.
         confidence: model of the loops' probability; None for that of the default model.
         progress: function that shows the progress.
+        known: loops of an earlier optimization; only the captures that are new since then are
+            localized.
 
     Raises:
         Cancelled: The request is late, or its client disconnected.
@@ -106,9 +119,16 @@ def bend(
     solver()  # before a search that may take minutes
     # Each track as its odometry gave it: a map that was optimized before has the same loops again.
     raw = with_corrected_odometry(graph.as_driven(), parameters)
-    loops = find_loops(raw, search, parameters, confidence, progress=progress)
+    loops: list[FoundLoop] = []
+    before, left = np.zeros(0, dtype=np.int64), chosen_captures(raw, parameters)
+    if known is not None:
+        loops, before, left = known.in_map(raw.frames, left, parameters)
+    loops += find_loops(raw, search, parameters, confidence, left, progress)
     frames = replace(graph.frames, odometry=raw.frames.odometry)
-    return judged(frames, loops, parameters)
+    localized = np.concatenate([before, left])
+    return replace(
+        judged(frames, loops, parameters), known=KnownLoops.of(raw.frames, localized, loops)
+    )
 
 
 def judged(

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from zlib import crc32
 
 import numpy as np
@@ -22,6 +22,7 @@ from placecell.pose_graph import (
     bend,
 )
 from placecell.pose_graph.frames import headings
+from placecell.pose_graph.known_loops import KnownLoops
 from placecell.pose_graph.loops import chosen_captures
 from placecell.pose_graph.odometry_correction import with_corrected_odometry
 from placecell.pose_graph.optimize import solver
@@ -32,6 +33,7 @@ from service.maps.layers import MapLayers
 from service.maps.writes.writer import MapWriter, WriteResult
 from service.merging.alignment import CancellationCheck
 from service.merging.graph_search import StoredSegmentSearch
+from service.merging.loop_memory import LoopMemory
 
 APART_SECONDS, APART_METERS = 60.0, 50.0
 """Gap between two captures of a robot from which they are not connected, if the map states no
@@ -120,8 +122,15 @@ def bend_content(
     content: CompactMap,
     model: Model,
     parameters: PoseGraphParameters,
+    known: KnownLoops | None = None,
 ) -> tuple[BentMap, CompactMap | None]:
     """Optimize the pose graph of a map; return its content if a capture moves.
+
+    Args:
+        content: the map.
+        model: model of its descriptors.
+        parameters: constants of the pose graph.
+        known: loops of an earlier optimization of the map.
 
     Raises:
         Cancelled: The request is late, or its client disconnected.
@@ -135,7 +144,7 @@ def bend_content(
         layers.sites.of(layers, model.manifest),
     )
     graph = graph_of(content)
-    bent = bend(graph, search, parameters, model.confidence)
+    bent = bend(graph, search, parameters, model.confidence, known=known)
     if not len(bent.moved) or bent.moved.max() <= parameters.settled:
         return bent, None
     return bent, bent_content(content, graph, bent.positions, bent.yaws)
@@ -171,12 +180,14 @@ class Optimizer:
         parameters: constants of the pose graph.
         dry_run: write nothing; only return what would change.
         check: raises `Cancelled` if the deadline passed or the client disconnected.
+        memory: loops of earlier optimizations: only new captures are localized.
     """
 
     writer: MapWriter
     parameters: PoseGraphParameters
     dry_run: bool
     check: CancellationCheck
+    memory: LoopMemory = field(default_factory=LoopMemory)
 
     def optimize(self, name: str) -> OptimizedMap:
         """Optimize the poses of a map's captures, and write the moved map as one version.
@@ -191,7 +202,10 @@ class Optimizer:
         self.writer.conditions.check(before.tag)
         model = self.writer.models.named(before.model_id)
         content = before.layers.content()
-        bent, after = bend_content(content, model, self.parameters)
+        known = self.memory.get(name, model.id)
+        bent, after = bend_content(content, model, self.parameters, known)
+        if bent.known is not None:
+            self.memory.put(name, model.id, bent.known)
         robots = robots_of_captures(content)
         sequence = before.head.sequence
         if self.dry_run or after is None:
