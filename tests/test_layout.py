@@ -48,7 +48,7 @@ LAYERS = (
     ("placecell.datasets",),
     ("placecell.segmentation", "placecell.localization"),
     ("placecell.segmentation.incremental",),
-    ("placecell.map_alignment", "placecell.inspection", "placecell.export"),
+    ("placecell.map_alignment", "placecell.inspection", "placecell.export", "placecell.lasting"),
     ("placecell.pose_graph",),
     ("placecell",),
     ("town.geometry",),
