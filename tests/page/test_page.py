@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from placecell_client import Client, CompactMap
+from placecell_client.classes import CLASSES
 
 from benchmarks.page.two_robots import TwoRobots
 from benchmarks.synthetic_maps.road_map import road_map
@@ -107,6 +108,25 @@ def test_segment_is_picked_and_its_facts_are_right(
     page.get_by_placeholder("Segment id").fill("999999")
     page.keyboard.press("Enter")
     page.get_by_role("alert").filter(has_text="no segment 999999").wait_for()
+
+
+def test_segments_are_colored_by_class_and_tell_theirs(page: "Page", address: str) -> None:
+    content = random_map(100)
+    # Byte 0 is unknown; 1 + 31 * 3 + 27 is a vehicle with a probability of 27 / 30.
+    classes = np.zeros(len(content), np.uint8)
+    classes[10:20] = 1 + 31 * CLASSES.index("vehicle") + 27
+    with Client(address) as client:
+        client.put_map("classed", replace(content, classes=classes))
+    show(page, address, "classed")
+    page.get_by_label("Color by").select_option("class")
+    page.get_by_role("list", name="Colors: class").get_by_text("vehicle").wait_for()
+    card = page.get_by_role("complementary", name="Selected segment")
+    for row, told in ((12, "vehicle (90%)"), (30, "unknown")):
+        page.get_by_placeholder("Segment id").fill(str(content.ids[row]))
+        page.get_by_role("button", name="Find", exact=True).click()
+        card.get_by_text(told, exact=True).wait_for()
+    with Client(address) as client:
+        client.delete_map("classed")
 
 
 def test_click_on_a_point_selects_it(page: "Page", address: str) -> None:
