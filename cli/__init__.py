@@ -29,6 +29,7 @@ from cli.serve import serve
 from cli.study import study
 from cli.town import town
 from cli.train import train
+from cli.train_classes import train_classes
 
 OLD_SPELLINGS = {"metres": "meters", "pair-metres": "pair-meters", "licence": "license"}
 """Former British spellings of options; they are accepted, but not shown."""
@@ -100,6 +101,7 @@ app.command(rich_help_panel=EVALUATE)(takes_drives(evaluate_segments))
 app.command(rich_help_panel=EVALUATE)(takes_drives(calibrate))
 app.command(rich_help_panel=EVALUATE)(takes_drives(study))
 app.command(rich_help_panel=TRAIN)(takes_drives(train))
+app.command(rich_help_panel=TRAIN)(takes_drives(train_classes))
 app.command(rich_help_panel=TRAIN)(fit_confidence)
 app.command(rich_help_panel=TRAIN)(takes_drives(experiments))
 app.command(rich_help_panel=TRAIN)(takes_drives(ablations))

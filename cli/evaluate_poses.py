@@ -122,6 +122,23 @@ def evaluate_poses(
             rich_help_panel=TOWN,
         ),
     ] = None,
+    other_cars: Annotated[
+        bool,
+        typer.Option(
+            "--other-cars",
+            help="Let robot B drive the way of robot A on another day, when all parked cars "
+            "changed. (default: robot B drives in the opposite direction)",
+            rich_help_panel=TOWN,
+        ),
+    ] = False,
+    ignore: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="CLASS",
+            help="Class of segments to leave out of map and queries, or movable for vehicles and "
+            "persons; repeatable. It needs a model with classes. (default: none)",
+        ),
+    ] = None,
     json_file: JsonFile = None,
     answers: Annotated[
         Path | None,
@@ -147,6 +164,7 @@ def evaluate_poses(
     """
     from evaluation.poses.evaluate import draw, evaluate
     from evaluation.poses.queries import Pair
+    from placecell.core.segment_classes import ClassFilter
     from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
     from placecell.localization import LocalizationParameters
 
@@ -154,7 +172,7 @@ def evaluate_poses(
         if motion not in {"yaw", "se3"}:
             raise ValueError(f"Invalid --motion {motion!r}: expected yaw or se3.")
         recordings = (map_recording, query_recording)
-        simulated = (map_sensor, query_sensor, place, scans, cache)
+        simulated = (map_sensor, query_sensor, place, scans, cache, other_cars or None)
         is_town = str(map_drive).startswith("town:")
         if is_town:
             if query_drive or any(recordings):
@@ -165,8 +183,8 @@ def evaluate_poses(
             made = partial(pair_of_town, str(map_drive), every, *simulated)
         elif any(value is not None for value in simulated):
             raise ValueError(
-                "--map-sensor, --query-sensor, --place, --scans and --cache need a simulated "
-                "drive. Give town:SEED as MAP_DRIVE."
+                "--map-sensor, --query-sensor, --place, --scans, --cache and --other-cars need a "
+                "simulated drive. Give town:SEED as MAP_DRIVE."
             )
         else:
             made = partial(Pair.of, map_drive, query_drive, every, recordings, show)
@@ -174,8 +192,11 @@ def evaluate_poses(
         parameters = LocalizationParameters(
             model="se3" if motion == "se3" else "yaw", max_false_acceptance=max_false_acceptance
         )
+        wanted = ClassFilter.of(None, ignore or ())
         folder = model_folder(model or DEFAULT_MODEL)
-        report, rows = evaluate(pair, folder, k, parameters, session, queries, seed, progress=show)
+        report, rows = evaluate(
+            pair, folder, k, parameters, session, queries, seed, wanted=wanted, progress=show
+        )
         write_json(report, json_file)
         if answers:
             answers.parent.mkdir(parents=True, exist_ok=True)
@@ -219,6 +240,7 @@ def pair_of_town(
     place: str | None,
     scans: int | None,
     cache: Path | None,
+    other_cars: bool | None,
     protocol: "Parameters",
 ) -> "Pair":
     """Simulate the robots of town:SEED:SENSOR:PLACE, or read them from the cache.
@@ -234,7 +256,7 @@ def pair_of_town(
         drives = TownDrives(
             cache or Path(folder), seed, place or named, scans or SCANS, every, protocol
         )
-        return drives.pair(mapping, query_sensor or mapping, show)
+        return drives.pair(mapping, query_sensor or mapping, show, other_day=bool(other_cars))
 
 
 SHARES = ("best_pose_right", "told_share_of_right", "success_2m_5deg")

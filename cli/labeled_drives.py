@@ -100,3 +100,29 @@ def segmented_with_labels(
         recording = record(drive, protocol.for_drive(len(drive), every), scans, show)
     refuse_nothing(drive, [recording])
     return recording, segment_classes(drive, recording, show) if has_labels(drive) else None
+
+
+def cached_labeled(
+    text: str, every: int | None, scans: int | None, cache: Path | None
+) -> "tuple[Recording, UInt8 | None]":
+    """Return the result of `load_labeled`; simulated drives are kept in a folder.
+
+    Args:
+        text, every, scans: see `load_labeled`.
+        cache: folder of the kept drives; None to keep none.
+    """
+    import numpy as np
+
+    from placecell.segmentation.recording import Recording
+
+    if cache is None or not text.startswith("town:"):
+        return load_labeled(text, every, AUTO, scans)
+    file = cache / f"{text.replace(':', '-')}-{scans}-{every}.safetensors"
+    if file.exists() and file.with_suffix(".npy").exists():
+        return replace(Recording.load(file), name=text), np.load(file.with_suffix(".npy"))
+    recording, classes = load_labeled(text, every, AUTO, scans)
+    cache.mkdir(parents=True, exist_ok=True)
+    assert classes is not None
+    np.save(file.with_suffix(".npy"), classes)
+    recording.save(file)
+    return recording, classes

@@ -90,7 +90,7 @@ LAYERS = (
     ("training.data",),
     ("evaluation.recognition", "evaluation.poses", "evaluation.segments"),
     ("training.methods",),
-    ("training.export",),
+    ("training.export", "training.classes"),
     ("training.experiments",),
     ("training",),
     ("benchmarks",),

@@ -19,6 +19,7 @@ from evaluation.poses.queries import (
     random_frame,
 )
 from evaluation.poses.report import Outcome, report
+from placecell.core.segment_classes import ClassFilter
 from placecell.localization import Localization, LocalizationParameters
 from placecell.localization.covariance import at_point
 from placecell.localization.evidence import RequestHistory
@@ -37,6 +38,7 @@ def evaluate(
     most: int | None = None,
     seed: int = 0,
     *,
+    wanted: ClassFilter | None = None,
     progress: Progress = silent,
 ) -> tuple[dict[str, Any], list[dict[str, Any]]]:
     """Localize every capture of a drive.
@@ -49,6 +51,7 @@ def evaluate(
         session: whether the queries form one session, at the times of their scans.
         most: largest number of queries, spread evenly; None: all.
         seed: random seed of the robot's own frame.
+        wanted: filter of the segments of map and queries by their class; None keeps all.
         progress: wraps the loop.
 
     Returns:
@@ -61,11 +64,11 @@ def evaluate(
     for robot in (pair.mapper, pair.asker):
         robot.check_segments()
     with Engine.temporary(model) as engine:
-        compact = pair.mapper.build_map(engine, pair.mapper.name)
+        compact = pair.mapper.build_map(engine, pair.mapper.name, wanted)
         file = encode(compact)
         engine.put_map(MAP, file)
         frame = random_frame(seed)
-        queries = list(pair.queries(engine, frame, most))
+        queries = list(pair.queries(engine, frame, most, wanted))
         fullest = max(queries, key=lambda each: len(each.codes))
         manifest = engine.model.manifest
         # A warm-up compiles all loops before the measurement.
@@ -98,6 +101,7 @@ def evaluate(
         "seen": any(manifest.has_seen(each.recordings[0].scan_hashes) for each in robots),
         "motion": parameters.model,
         "session": session,
+        "classes": None if wanted is None else sorted(wanted.kept),
         "k": k,
         "seed": seed,
         "machine": machine(),

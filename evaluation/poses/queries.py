@@ -14,6 +14,7 @@ from evaluation.poses.recordings import recording_of
 from evaluation.poses.robot import Robot, clouds
 from evaluation.poses.robots import robots_of_drive
 from placecell.core.parameters import PROTOCOL_V1, Parameters
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.segments import Segments
 from placecell.core.types import Float64, Int8, Int64
 from placecell.datasets import Drive, open_drive
@@ -136,15 +137,22 @@ class Pair:
         """Return the pair with the roles of the robots swapped."""
         return replace(self, mapper=self.asker, asker=self.mapper)
 
-    def queries(self, engine: Engine, frame: Pose, most: int | None = None) -> Iterator[PoseQuery]:
+    def queries(
+        self,
+        engine: Engine,
+        frame: Pose,
+        most: int | None = None,
+        wanted: ClassFilter | None = None,
+    ) -> Iterator[PoseQuery]:
         """Yield the query of each capture, also of captures without segments.
 
         Args:
             engine: describes the segments.
             frame: transform from the drive's frame to the robot's own frame.
             most: largest number of queries, spread evenly; None: all.
+            wanted: filter of the segments by their class; None keeps all.
         """
-        yield from self.posed(described_captures(self.asker, engine, most), frame)
+        yield from self.posed(described_captures(self.asker, engine, most, wanted), frame)
 
     def posed(self, captures: Iterable[DescribedCapture], frame: Pose) -> Iterator[PoseQuery]:
         """Yield the query of each capture of the asking robot, with its true pose in the map.
@@ -174,7 +182,7 @@ class Pair:
 
 
 def described_captures(
-    robot: Robot, engine: Engine, most: int | None = None
+    robot: Robot, engine: Engine, most: int | None = None, wanted: ClassFilter | None = None
 ) -> Iterator[DescribedCapture]:
     """Yield the captures of a robot, also those without segments, in the frame of its drive.
 
@@ -182,6 +190,7 @@ def described_captures(
         robot: the robot.
         engine: describes the segments.
         most: largest number of captures, spread evenly; None: all.
+        wanted: filter of the segments by their class; None keeps all.
     """
     drive = robot.drive
     steps = np.linalg.norm(np.diff(drive.poses[:, :3, 3], axis=0), axis=1)
@@ -189,7 +198,7 @@ def described_captures(
     asked = set(spread(len(robot.frames), most).tolist())
     for number, (scan, segments, _) in enumerate(robot.views()):
         if number in asked:
-            codes, centroids = described(engine, segments)
+            codes, centroids = described(engine, segments, wanted)
             yield DescribedCapture(
                 scan=scan,
                 time=float(drive.times[scan]),
@@ -200,11 +209,13 @@ def described_captures(
             )
 
 
-def described(engine: Engine, segments: Segments) -> tuple[Int8, Float64]:
-    """Return codes (n, code bytes) and centroids (n, 3) of all segments with a descriptor."""
+def described(
+    engine: Engine, segments: Segments, wanted: ClassFilter | None = None
+) -> tuple[Int8, Float64]:
+    """Return codes (n, code bytes) and centroids (n, 3) of the wanted segments."""
     if not len(segments):
         return np.zeros((0, engine.model.manifest.code_bytes), dtype=np.int8), np.zeros((0, 3))
-    found = engine.describe(clouds(segments), segments.sensors)
+    found = engine.describe(clouds(segments), segments.sensors).searched(wanted)
     assert found.centroids is not None
     return found.codes[found.usable], found.centroids[found.usable]
 

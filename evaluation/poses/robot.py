@@ -11,8 +11,9 @@ from numpy.typing import ArrayLike
 from placecell_client import Client, CompactMap, Info
 from scipy.spatial.transform import Rotation
 
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.segments import Segments
-from placecell.core.types import Float64, Int8
+from placecell.core.types import Float64, Int8, UInt8
 from placecell.segmentation.recording import Recording
 
 
@@ -30,6 +31,10 @@ class DescribedSegments(Protocol):
     @property
     def centroids(self) -> Float64 | None:
         """Return the centroids, float64 (n, 3), meters."""
+
+    @property
+    def classes(self) -> UInt8 | None:
+        """Return class and probability of each segment, uint8 (n,); None without a head."""
 
 
 class SegmentDescriber(Protocol):
@@ -116,12 +121,15 @@ class Robot:
         """Transform points (n, 3) from the drive's frame into the common frame."""
         return np.asarray(points @ self.to_common[:3, :3].T + self.to_common[:3, 3])
 
-    def build_map(self, client: SegmentDescriber, frame: str) -> CompactMap:
+    def build_map(
+        self, client: SegmentDescriber, frame: str, wanted: ClassFilter | None = None
+    ) -> CompactMap:
         """Build a map of the drive from all segments that are no duplicates.
 
         Args:
             client: describes the segments.
             frame: name of the map's coordinate frame.
+            wanted: filter of the segments by their class; None keeps all.
 
         Raises:
             ValueError: the drive has no segments.
@@ -135,10 +143,13 @@ class Robot:
                 continue
             description = client.describe(clouds(segments), segments.sensors)
             model_id = description.model_id
+            kept = distinct
+            if wanted is not None and description.classes is not None:
+                kept = distinct & wanted.keeps(description.classes)
             assert description.centroids is not None
-            codes.append(description.codes[distinct])
-            centroids.append(description.centroids[distinct])
-            frame_index.append(np.full(int(distinct.sum()), len(scans), dtype=np.uint32))
+            codes.append(description.codes[kept])
+            centroids.append(description.centroids[kept])
+            frame_index.append(np.full(int(kept.sum()), len(scans), dtype=np.uint32))
             scans.append(scan)
         poses = self.drive.poses[scans]
         count = sum(map(len, codes))

@@ -21,9 +21,12 @@ from placecell.segmentation.recording import Recording
 SCANS = 300
 """Default number of scans of a drive."""
 
-Name = Literal["robot_a", "robot_b"]
+Name = Literal["robot_a", "robot_b", "other_day"]
 
 BOTH: tuple[Name, Name] = ("robot_a", "robot_b")
+
+OTHER_DAY: Name = "other_day"
+"""Robot that drives the way of robot A on another day, when all parked cars changed."""
 
 
 @dataclass(slots=True, eq=False)
@@ -76,15 +79,30 @@ class TownDrives:
     every: int | None = None
     protocol: Parameters = PROTOCOL_V1
 
-    def pair(self, map_sensor: str, query_sensor: str, progress: Progress = silent) -> Pair:
+    def pair(
+        self,
+        map_sensor: str,
+        query_sensor: str,
+        progress: Progress = silent,
+        *,
+        other_day: bool = False,
+    ) -> Pair:
         """Return robot A with the map's sensor, and robot B with the queries' sensor.
+
+        Args:
+            map_sensor: sensor of the map's robot.
+            query_sensor: sensor of the queries' robot.
+            progress: wraps the loops.
+            other_day: let the queries' robot drive the way of robot A on another day, when all
+                parked cars changed, in place of robot B.
 
         Raises:
             ValueError: a sensor or the place is unknown.
         """
         self.check((map_sensor, query_sensor))
         mapper = self.robot("robot_a", map_sensor, progress)
-        return Pair(mapper, self.robot("robot_b", query_sensor, progress), blocks=False)
+        asker = self.robot(OTHER_DAY if other_day else "robot_b", query_sensor, progress)
+        return Pair(mapper, asker, blocks=False)
 
     def check(self, sensors: Iterable[str]) -> None:
         """Check the names of sensors and of the place.
@@ -123,16 +141,30 @@ class TownDrives:
         """
         missing = [name for name in names if not self._path_file(name, sensor).exists()]
         if missing:
-            with self._simulated(sensor, progress) as folders:
+            with self._simulated(sensor, progress, other_day=OTHER_DAY in missing) as folders:
                 for name in missing:
                     self._keep(folders[name], name, sensor, progress)
 
     @contextmanager
-    def _simulated(self, sensor: str, progress: Progress) -> Iterator[dict[Name, Path]]:
-        """Simulate both robots; their scans are deleted at the end."""
+    def _simulated(
+        self, sensor: str, progress: Progress, *, other_day: bool
+    ) -> Iterator[dict[Name, Path]]:
+        """Simulate both robots, or the one of another day; the scans are deleted at the end."""
         import town
 
         with TemporaryDirectory(prefix="placecell-town-") as folder:
+            if other_day:
+                drive = town.first_robot(
+                    Path(folder),
+                    self.seed,
+                    self.scans,
+                    place=self.place,
+                    lidar=town.sensor(sensor),
+                    other_cars=True,
+                    progress=progress,
+                )
+                yield {OTHER_DAY: drive}
+                return
             drives = town.two_robots(
                 Path(folder),
                 seed=self.seed,

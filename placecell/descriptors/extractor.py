@@ -15,13 +15,18 @@ from numpy.typing import NDArray
 from placecell.core.processors import available_cores
 from placecell.core.segments import Segments
 from placecell.core.types import Float32, UInt8
+from placecell.descriptors.class_features import class_features
+from placecell.descriptors.class_head import ClassHead
 from placecell.descriptors.eigenvalue import FEATURES, eigenvalue_descriptors
-from placecell.descriptors.manifest import FILE, Manifest, ModelError
+from placecell.descriptors.manifest import CLASSES_FILE, FILE, Manifest, ModelError
 from placecell.descriptors.neighborhood import describe_neighborhood
 from placecell.descriptors.orientation import orient
 from placecell.descriptors.voxels import voxelize_oriented
 
 MODEL_FILE = "model.onnx"
+CLASS_FEATURES = "class_features"
+"""Input of the head for classes, beside those of the network."""
+
 BATCH = 16
 """Segments per inference. Larger batches are slower on a CPU: their activations leave the cache."""
 
@@ -136,6 +141,10 @@ class OnnxExtractor(Extractor):
         self.manifest = manifest
         threads = threads or available_cores()
         self._pool = ThreadPoolExecutor(threads, thread_name_prefix="describe")
+        self._head = None
+        if CLASSES_FILE in manifest.files:
+            self._head = ClassHead(folder, manifest, threads)
+            self.has_classes = True
         self._idle: SimpleQueue[onnxruntime.InferenceSession] = SimpleQueue()
         try:
             for _ in range(threads):
@@ -149,7 +158,17 @@ class OnnxExtractor(Extractor):
     def prepare(
         self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
     ) -> Inputs:
-        """Return occupancy grids, extents and, if the model uses it, the neighborhood."""
+        """Return occupancy grids, extents and, if the model uses them, neighborhood and features.
+
+        The features are those of the head for classes.
+        """
+        inputs = self._network_inputs(segments, neighborhood, lap)
+        if self._head is not None:
+            inputs[CLASS_FEATURES] = class_features(segments)
+            lap("voxelise")
+        return inputs
+
+    def _network_inputs(self, segments: Segments, neighborhood: Float32 | None, lap: Lap) -> Inputs:
         inputs: Inputs = {}
         parameters = self.manifest.neighborhood
         if parameters is not None:
@@ -184,9 +203,22 @@ class OnnxExtractor(Extractor):
         def some(first: int, end: int) -> Float32:
             rows = np.arange(first, end)
             around = None if neighborhood is None else neighborhood[rows]
-            return self._run(self.prepare(segments.take(rows), around))
+            return self._run(self._network_inputs(segments.take(rows), around, unwatched))
 
         return self._in_batches(some, len(segments))
+
+    def classify(self, inputs: Inputs, descriptors: Float32) -> UInt8 | None:
+        """Return class and probability of each row, uint8 (rows,); None without a head."""
+        if self._head is None:
+            return None
+        return self._head.classify(descriptors, inputs[CLASS_FEATURES])
+
+    def description(self, segments: Segments, neighborhood: Float32 | None = None) -> Description:
+        """Return descriptors and classes of segments; see `describe`."""
+        values = self.describe(segments, neighborhood)
+        if self._head is None:
+            return Description(values)
+        return Description(values, self._head.classify(values, class_features(segments)))
 
     def _in_batches(self, some: Callable[[int, int], Float32], count: int) -> Float32:
         """Apply `some` to batches of rows and concatenate the descriptors."""
@@ -200,7 +232,8 @@ class OnnxExtractor(Extractor):
     def _run(self, inputs: Inputs) -> Float32:
         session = self._idle.get()
         try:
-            descriptors: Float32 = session.run(["descriptor"], inputs)[0]
+            network = {name: rows for name, rows in inputs.items() if name != CLASS_FEATURES}
+            descriptors: Float32 = session.run(["descriptor"], network)[0]
         finally:
             self._idle.put(session)
         return descriptors

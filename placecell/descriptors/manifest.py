@@ -25,6 +25,9 @@ FULL_FILE = "model-fp32.onnx"
 """File of the float32 network of a model that is served with 8-bit integers. Not part of the id."""
 
 
+CLASSES_FILE = "classes.onnx"
+"""File of the head that tells a segment's class. Not part of the id."""
+
 CALIBRATION_FILE = "calibration.json"
 """Optional file of `placecell calibrate`; its site constants replace those of the manifest."""
 
@@ -52,6 +55,8 @@ class Manifest:
         pair_threshold: distance of decoded descriptors below which a pair is a match.
         pair: the pair classifier's `kind`, the `threshold` of its probability and the comparison of
             the kinds on validation; empty without a classifier. Not part of the id.
+        classes: version of the features of the head for classes, its training and its figures;
+            empty without a head. Not part of the id.
         training: drives, scans and their hashes, seed, time and licenses. Not part of the id.
         figures: measured results. Not part of the id.
     """
@@ -66,6 +71,7 @@ class Manifest:
     standardization: dict[str, list[float]] = field(default_factory=dict)
     pair_threshold: float = 0.0
     pair: dict[str, Any] = field(default_factory=dict)
+    classes: dict[str, Any] = field(default_factory=dict)
     training: dict[str, Any] = field(default_factory=dict)
     figures: dict[str, Any] = field(default_factory=dict)
 
@@ -78,7 +84,9 @@ class Manifest:
             "quantiser": self.quantizer.as_dict(),
             "preprocessing": self.preprocessing,
             "files": {
-                name: sha for name, sha in self.files.items() if name not in {PAIR_FILE, FULL_FILE}
+                name: sha
+                for name, sha in self.files.items()
+                if name not in {PAIR_FILE, FULL_FILE, CLASSES_FILE}
             },
             "standardisation": self.standardization,
         }
@@ -95,6 +103,8 @@ class Manifest:
             JSON_KEYS.get(name, name): value for name, value in asdict(self).items()
         }
         content["quantiser"] = self.quantizer.as_dict()
+        if not self.classes:
+            del content["classes"]  # Earlier versions refuse unknown keys.
         (folder / FILE).write_text(json.dumps(content, indent=2) + "\n")
 
     @classmethod

@@ -1,0 +1,1 @@
+"""Training of the head that tells a segment's class."""
