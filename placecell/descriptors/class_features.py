@@ -226,8 +226,8 @@ def _gather(
             index[axis] = min(max(np.floor(at[axis] / cell), -512.0), 511.0)
             # Relative to the middle of the cell, so that no digits are lost.
             at[axis] -= (index[axis] + 0.5) * cell
-        column = ((np.int64(index[0]) + 512) << 10) | (np.int64(index[1]) + 512)
-        key = (column << 10) | (np.int64(index[2]) + 512)
+        column = ((int(index[0]) + 512) << 10) | (int(index[1]) + 512)
+        key = (column << 10) | (int(index[2]) + 512)
         slot = slot_of(key, seed, slots)
         while table[slot] >= 0 and keys[slot] != key:
             slot = (slot + 1) & (slots - 1)
@@ -235,11 +235,11 @@ def _gather(
             table[slot], keys[slot] = cells, key
             sums[cells] = 0
             cells += 1
-            place = slot_of(column, seed, slots)
-            while columns[place] >= 0 and columns[place] != column:
-                place = (place + 1) & (slots - 1)
-            held += columns[place] < 0
-            columns[place] = column
+            tall = slot_of(column, seed, slots)
+            while columns[tall] >= 0 and columns[tall] != column:
+                tall = (tall + 1) & (slots - 1)
+            held += columns[tall] < 0
+            columns[tall] = column
         into = sums[table[slot]]
         into[0] += 1
         place = 4
