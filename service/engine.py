@@ -32,6 +32,7 @@ from placecell_client.hints import SensorPose
 from placecell_client.maps.map_file import VERSION
 
 from placecell.core.cancellation import current
+from placecell.core.segment_classes import ClassFilter
 from placecell.descriptors.manifest import Manifest, ModelError
 from placecell.descriptors.site_calibration import CalibrationState, SiteCalibration
 from placecell.localization import LocalizationParameters
@@ -298,6 +299,7 @@ class Engine:
         k: int = 10,
         principal: Principal = ANYONE,
         rerank: bool = True,
+        wanted: ClassFilter | None = None,
     ) -> MatchResult:
         """Return the k nearest map segments of each segment, re-ranked if centroids are known.
 
@@ -308,12 +310,13 @@ class Engine:
             k: largest number of candidates of a segment.
             principal: principal, whose scope may not cover all maps.
             rerank: order the candidates by the neighbors that support them, the best k of 25.
+            wanted: filter of the segments by class.
 
         Raises:
             Problem: as `query`.
         """
         timing = Timing()
-        query = self.query(seen, maps, k, principal, timing, rerank)
+        query = self.query(seen, maps, k, principal, timing, rerank, wanted=wanted)
         return self.matches(query, query.describe_alone())
 
     def localize(
@@ -325,6 +328,7 @@ class Engine:
         session: str | Session | None = None,
         principal: Principal = ANYONE,
         hints: Hints | None = None,
+        wanted: ClassFilter | None = None,
     ) -> LocalizationResult:
         """Return the robot's pose in each map, or the reason for none; the most probable first.
 
@@ -337,12 +341,13 @@ class Engine:
                 the last seconds support each other.
             principal: principal, whose scope may not cover all maps.
             hints: where the robot is, as far as it knows; they narrow the result.
+            wanted: filter of the segments by class.
 
         Raises:
             Problem: as `query`; 422 if a hint is wrong.
         """
         timing = Timing()
-        query = self.query(seen, maps, k, principal, timing)
+        query = self.query(seen, maps, k, principal, timing, wanted=wanted)
         descriptors = query.describe_alone()
         return self.poses(query, descriptors, timing, parameters, session, principal, hints)
 
@@ -355,6 +360,7 @@ class Engine:
         timing: Timing,
         rerank: bool = False,
         tags: Sequence[str] | None = None,
+        wanted: ClassFilter | None = None,
     ) -> Query:
         """Select the maps to search and prepare the segments: the first step of a search.
 
@@ -368,6 +374,7 @@ class Engine:
             timing: stopwatch of the request.
             rerank: re-rank the candidates.
             tags: tags that the maps must have.
+            wanted: filter of the segments by class.
 
         Raises:
             Problem: 403 if a named map is outside the scope of the key, 404 if it does not exist,
@@ -381,9 +388,11 @@ class Engine:
         if isinstance(seen, Descriptors):
             only = self.models.named(seen.model_id)
             selection = select_maps(self.maps, self.models, maps, only, principal, is_tagged)
-            return query_of_codes(seen, selection, k, self.settings.limits, timing, rerank)
-        selection = select_maps(self.maps, self.models, maps, None, principal, is_tagged)
-        return query_of_scan(seen, self.models.default, selection, k, timing, rerank)
+            query = query_of_codes(seen, selection, k, self.settings.limits, timing, rerank)
+        else:
+            selection = select_maps(self.maps, self.models, maps, None, principal, is_tagged)
+            query = query_of_scan(seen, self.models.default, selection, k, timing, rerank)
+        return replace(query, wanted=wanted)
 
     def matches(self, query: Query, descriptors: Sequence[Descriptors]) -> MatchResult:
         """Search the nearest segments: the third step of a match."""

@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
-from placecell.core.types import Float64, Int8, Int64
+from placecell.core.segment_classes import CLASSES, ClassFilter, encoded
+from placecell.core.types import Float64, Int8, Int64, UInt8
 from service.api.schemas.localization import LocalizeQuery
-from service.api.schemas.recognition import MatchQuery, Point
+from service.api.schemas.recognition import ClassIn, MatchQuery, Point
 from service.api.state import State
 from service.core.auth import Principal
 from service.core.problems import Problem, invalid_value
@@ -55,7 +56,7 @@ def read_scan(segments: Sequence[HasPoints], origin: Point | None) -> Scan:
 def read_query(
     state: State,
     principal: Principal,
-    request: MatchQuery[Any, Any, Any] | LocalizeQuery[Any, Any, Any],
+    request: MatchQuery[Any, Any, Any, Any] | LocalizeQuery[Any, Any, Any, Any],
     timing: Timing,
     rerank: bool = False,
 ) -> Query:
@@ -79,12 +80,25 @@ def read_query(
         raise invalid_value("/maps", detail)
     if request.codes is not None:
         centroids = None if request.centroids is None else np.array(request.centroids, np.float64)
-        seen: Descriptors | Scan = _read_codes(state, request.codes, request.model_id, centroids)
+        seen: Descriptors | Scan = _read_codes(
+            state, request.codes, request.model_id, centroids, _read_classes(request.query_classes)
+        )
     else:
         assert request.segments is not None  # as the schema has checked
         seen = read_scan(request.segments, request.origin)
+    wanted = ClassFilter.of(request.classes, request.ignore or ())
     return state.engine.query(
-        seen, request.maps, request.k, principal, timing, rerank, request.tags
+        seen, request.maps, request.k, principal, timing, rerank, request.tags, wanted
+    )
+
+
+def _read_classes(given: UInt8 | list[ClassIn | None] | None) -> UInt8 | None:
+    """Return the request's own classes, uint8 (q,)."""
+    if given is None or isinstance(given, np.ndarray):
+        return given
+    return encoded(
+        [-1 if each is None else CLASSES.index(each.name) for each in given],
+        [0.0 if each is None else each.probability for each in given],
     )
 
 
@@ -93,6 +107,7 @@ def _read_codes(
     given: Int8 | list[list[int]],
     model_id: str | None,
     centroids: Float64 | None,
+    classes: UInt8 | None,
 ) -> Descriptors:
     """Return the request's own descriptors.
 
@@ -110,7 +125,10 @@ def _read_codes(
     if centroids is not None and len(centroids) != len(codes):
         detail = f"{len(centroids)} centroids for {len(codes)} codes; expected one for each code."
         raise invalid_value("/centroids", detail)
-    return Descriptors(model.id, codes, None, centroids, {})
+    if classes is not None and len(classes) != len(codes):
+        detail = f"{len(classes)} classes for {len(codes)} codes; expected one for each code."
+        raise invalid_value("/query_classes", detail)
+    return Descriptors(model.id, codes, None, centroids, {}, classes=classes)
 
 
 def _code_rows(given: Int8 | list[list[int]], code_bytes: int) -> Int8:

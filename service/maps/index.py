@@ -8,18 +8,21 @@ bound, the index asks FAISS for more rows.
 """
 
 from abc import ABC, abstractmethod
+from collections import OrderedDict
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
+from threading import Lock
 from typing import Any
 
 import faiss
 import numpy as np
 
 from placecell.core.processors import available_cores
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.types import Bool, Float32, Float64, Int8, Int64, UInt8, UInt16
 from placecell.descriptors.quantizer import LEVELS, Quantizer
-from service.maps.layers import MapLayers
+from service.maps.layers import MapLayers, classes_of
 
 MARGIN = 24
 """Number of rows fetched beyond k at first, so that few queries need a second search."""
@@ -36,6 +39,10 @@ PARALLEL = 1 << 23
 BLOCK = 1 << 21
 """Bytes of codes compared per step; many ties would otherwise take gigabytes."""
 
+FILTERS = 2
+"""Largest number of filters of an index whose rows are kept as indexes of their own; each takes up
+to the memory of the index."""
+
 CORES = available_cores()
 
 _threads = ThreadPoolExecutor(CORES, thread_name_prefix="index")
@@ -45,9 +52,32 @@ _threads = ThreadPoolExecutor(CORES, thread_name_prefix="index")
 class MapIndex(ABC):
     """Index over stored descriptors by Euclidean distance."""
 
-    def __init__(self, codes: Int8) -> None:
+    def __init__(self, codes: Int8, quantizer: Quantizer) -> None:
         """Index codes, int8 (n, code bytes)."""
         self._codes = codes
+        self._quantizer = quantizer
+        self._parts: OrderedDict[ClassFilter, FilteredIndex] = OrderedDict()
+        self._parts_lock = Lock()
+
+    def filtered(self, classes: UInt8, wanted: ClassFilter) -> "FilteredIndex":
+        """Return the index over the rows that a filter keeps; the last few are kept in memory.
+
+        Args:
+            classes: class of each row, uint8 (n,), always the same.
+            wanted: the filter.
+        """
+        with self._parts_lock:
+            part = self._parts.get(wanted)
+            if part is None:
+                rows = np.flatnonzero(wanted.keeps(classes))
+                whole = len(rows) == len(self)
+                codes = self._codes if whole else self._codes[rows]
+                part = FilteredIndex(rows, self if whole else index_of(codes, self._quantizer))
+                self._parts[wanted] = part
+            self._parts.move_to_end(wanted)
+            while len(self._parts) > FILTERS:
+                self._parts.popitem(last=False)
+            return part
 
     def __len__(self) -> int:
         return len(self._codes)
@@ -134,8 +164,7 @@ class FlatIndex(MapIndex):
     """
 
     def __init__(self, codes: Int8, quantizer: Quantizer) -> None:
-        super().__init__(codes)
-        self._quantizer = quantizer
+        super().__init__(codes, quantizer)
         self._index = faiss.IndexFlatL2(codes.shape[1] * quantizer.per_byte)
         self._index.codes.resize(4 * len(codes) * self._index.d)  # else it grows by doubling
         self._index.codes.resize(0)
@@ -217,8 +246,7 @@ class NibbleIndex(MapIndex):
 
     def __init__(self, codes: Int8, quantizer: Quantizer) -> None:
         """Index codes with 2 or 4 dimensions per byte."""
-        super().__init__(codes)
-        self._quantizer = quantizer
+        super().__init__(codes, quantizer)
         self._tables = Nibbles.of(quantizer.per_byte)
         self._index = self._tables.index(codes) if len(codes) else None
         # FAISS rounds each nibble's distance to 1/255 of the largest, and the sum to 16 bits.
@@ -253,6 +281,35 @@ def index_of(codes: Int8, quantizer: Quantizer) -> MapIndex:
     return kind(codes, quantizer)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class FilteredIndex:
+    """Index over the rows of another one that a filter keeps.
+
+    So the search stays exact, and takes no longer than the one in all rows.
+
+    Attributes:
+        rows: rows of the other index, int64 (m,), ascending.
+        index: index over them.
+    """
+
+    rows: Int64
+    index: MapIndex
+
+    def search(self, codes: Int8, k: int, gone: Bool | None = None) -> tuple[Float64, Int64]:
+        """Return the k nearest rows of the other index; see `MapIndex.search`."""
+        hidden = None if gone is None else gone[self.rows]
+        distances, found = self.index.search(codes, k, hidden)
+        return distances, self.rows[found]
+
+    def rough(self, codes: Int8, k: int) -> tuple[Float32, Int64]:
+        """Return about the k nearest rows of the other index; see `MapIndex.rough`."""
+        k = min(k, len(self.rows))
+        if not k:
+            return np.zeros((len(codes), 0), np.float32), np.zeros((len(codes), 0), np.int64)
+        squared, found = self.index.rough(codes, k)
+        return squared, np.where(found < 0, -1, self.rows[found])
+
+
 @dataclass(frozen=True, slots=True)
 class LayeredIndex:
     """Index over both layers of a map."""
@@ -274,22 +331,30 @@ class LayeredIndex:
         recent = index_of(layers.recent.codes, quantizer)
         return cls(base or index_of(layers.base.codes, quantizer), recent)
 
-    def search(self, layers: MapLayers, codes: Int8, k: int) -> tuple[Float64, Int64]:
+    def search(
+        self, layers: MapLayers, codes: Int8, k: int, wanted: ClassFilter | None = None
+    ) -> tuple[Float64, Int64]:
         """Return the k nearest segments to each query, over both layers.
 
         Args:
             layers: the indexed layers.
             codes: queries, int8 (q, code bytes).
             k: number of segments; all segments if the map has fewer.
+            wanted: filter of the segments; the nearest are those of the segments that it keeps.
 
         Returns:
             Distances in steps of the quantizer, float64 (q, min(k, n)), ascending; and rows of
             `layers`, int64, of the same shape, by id among equal distances.
         """
-        distances, rows = self.base.search(codes, k, layers.gone if layers.gone_count else None)
+        base: MapIndex | FilteredIndex = self.base
+        recent: MapIndex | FilteredIndex = self.recent
+        if wanted is not None:
+            base = self.base.filtered(classes_of(layers.base), wanted)
+            recent = self.recent.filtered(classes_of(layers.recent), wanted)
+        distances, rows = base.search(codes, k, layers.gone if layers.gone_count else None)
         if not len(layers.recent):
             return distances, rows
-        nearer, above = self.recent.search(codes, k)
+        nearer, above = recent.search(codes, k)
         distances = np.concatenate([distances, nearer], axis=1)
         rows = np.concatenate([rows, above + len(layers.base)], axis=1)
         order = np.lexsort((layers.column("ids", rows), distances), axis=1)[:, :k]

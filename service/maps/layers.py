@@ -21,8 +21,9 @@ from placecell_client.maps.edit import (
     with_optional,
 )
 
+from placecell.core.segment_classes import CLASSES, ClassFilter, class_indices
 from placecell.core.spatial import within
-from placecell.core.types import Bool, Float64, Int64, UInt32
+from placecell.core.types import Bool, Float64, Int64, UInt8, UInt32
 from placecell.descriptors.site_calibration import milestone, sample_rows
 from service.inference.site_calibrations import SiteCalibrations, SiteSample
 
@@ -142,12 +143,37 @@ class MapLayers:
             return self.take(self.recent.ids[:0])
         return self.take(self.column("ids", self.rows_near(places, meters)))
 
-    def rows_near(self, places: Float64, meters: float) -> Int64:
-        """Return rows of the map near these places, (p, 3), one place or more; see `within`."""
+    def rows_near(self, places: Float64, meters: float, wanted: ClassFilter | None = None) -> Int64:
+        """Return rows of the map near these places, (p, 3), one place or more; see `within`.
+
+        Args:
+            places: the places, float64 (p, 3), meters.
+            meters: largest distance.
+            wanted: filter of the segments.
+        """
         base, recent = (
             within(layer.centroids, places, meters) for layer in (self.base, self.recent)
         )
-        return np.concatenate([base[~self.gone[base]], recent + len(self.base)])
+        rows = np.concatenate([base[~self.gone[base]], recent + len(self.base)])
+        return rows if wanted is None else rows[wanted.keeps(self.classes(rows))]
+
+    def classes(self, rows: Int64) -> UInt8:
+        """Return the classes at rows of the map, uint8 (n,); 0 in a layer without classes."""
+        above = rows >= len(self.base)
+        values = np.zeros(len(rows), np.uint8)
+        values[~above] = classes_of(self.base)[rows[~above]]
+        values[above] = classes_of(self.recent)[rows[above] - len(self.base)]
+        return values
+
+    @cached_property
+    def class_counts(self) -> dict[str, int]:
+        """Number of segments of each class; `unknown` comes last. Empty without the column."""
+        if "classes" not in self.optional:
+            return {}
+        every = np.concatenate([classes_of(self.base)[~self.gone], classes_of(self.recent)])
+        counts = np.bincount(class_indices(every) + 1, minlength=len(CLASSES) + 1).tolist()
+        named = dict(zip(CLASSES, counts[1:], strict=True)) | {"unknown": counts[0]}
+        return {name: count for name, count in named.items() if count}
 
     def column(self, name: str, rows: Int64) -> NDArray[Any]:
         """Return a required column's values at rows of the map, an array of any shape."""
@@ -243,6 +269,11 @@ class MapLayers:
         """Return the delta from the base to the map."""
         removed = np.setdiff1d(self.base.ids[self.gone], self.recent.ids)
         return Delta(self.recent, removed)
+
+
+def classes_of(content: CompactMap) -> UInt8:
+    """Return the class of each segment, uint8 (n,); 0 without the column `classes`."""
+    return np.zeros(len(content), np.uint8) if content.classes is None else content.classes
 
 
 def robots_of(content: CompactMap) -> Counter[str]:

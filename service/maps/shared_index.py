@@ -14,9 +14,10 @@ from threading import Lock
 
 import numpy as np
 
-from placecell.core.types import Bool, Float32, Int64
+from placecell.core.segment_classes import ClassFilter
+from placecell.core.types import Bool, Float32, Int64, UInt8
 from placecell.descriptors.quantizer import Quantizer
-from service.maps.index import MapIndex, index_of
+from service.maps.index import FilteredIndex, MapIndex, index_of
 from service.maps.layers import MapLayers
 from service.maps.snapshot import MapSnapshot
 
@@ -57,6 +58,7 @@ class SharedIndex:
         rows: row of each segment in its map's layers, int64 (n,).
         centroids: centroids relative to the middle of their map, float32 (n, 3), meters.
         index: index over the descriptors.
+        classes: class of each segment, uint8 (n,).
     """
 
     keys: tuple[ContentKey, ...]
@@ -64,6 +66,11 @@ class SharedIndex:
     rows: Int64
     centroids: Float32
     index: MapIndex
+    classes: UInt8
+
+    def among(self, wanted: ClassFilter | None) -> MapIndex | FilteredIndex:
+        """Return the index over the segments that a filter keeps."""
+        return self.index if wanted is None else self.index.filtered(self.classes, wanted)
 
     @property
     def has_room(self) -> bool:
@@ -87,6 +94,9 @@ class SharedIndex:
             np.concatenate(rows),
             np.concatenate(centroids),
             index_of(np.concatenate(codes), quantizer),
+            np.concatenate(
+                [each.layers.classes(own) for each, own in zip(maps, rows, strict=True)]
+            ),
         )
 
 

@@ -14,6 +14,7 @@ from placecell_client.hints import GeoHint, Hints, LastPoseHint, SensorPose, Unu
 from scipy.spatial.transform import Rotation
 
 from placecell.core.geodesy import GeoAnchor, to_map
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.spatial import evenly
 from placecell.core.types import Float64, Int8, Int64
 from placecell.localization import Candidates, Localization, LocalizationParameters, Pose
@@ -278,6 +279,7 @@ def guesses_within(
     snapshot: MapSnapshot,
     there: MapSegments,
     parameters: LocalizationParameters,
+    wanted: ClassFilter | None = None,
 ) -> tuple[Pose, ...]:
     """Return poses within an area that the segments around it suggest.
 
@@ -293,6 +295,7 @@ def guesses_within(
         snapshot: the map.
         there: its segments, compared with the codes.
         parameters: parameters of the localization.
+        wanted: filter of the map's segments.
     """
     if not area.discs:
         return ()
@@ -300,7 +303,8 @@ def guesses_within(
     if not len(asked):
         return ()
     away = np.linalg.norm(centroids[asked] - np.asarray(sensor.position, np.float64), axis=1)
-    rows = _rows_around(min(area.discs, key=lambda disc: disc.radius), float(away.max()), snapshot)
+    disc = min(area.discs, key=lambda disc: disc.radius)
+    rows = _rows_around(disc, float(away.max()), snapshot, wanted)
     if not len(rows) or len(rows) > ROWS:
         return ()
     near = _nearest_among(rows, codes[asked], model, snapshot)
@@ -315,12 +319,14 @@ def guesses_within(
     return tuple(each.pose for each in found if area.holds(each.pose, sensor))
 
 
-def _rows_around(disc: Disc, reach: float, snapshot: MapSnapshot) -> Int64:
+def _rows_around(
+    disc: Disc, reach: float, snapshot: MapSnapshot, wanted: ClassFilter | None
+) -> Int64:
     """Return the rows of a map within reach of a disc, and a few others."""
     low = high = disc.center
     if len(disc.center) == 2:
         low, high = np.append(low, -np.inf), np.append(high, np.inf)
-    return snapshot.layers.rows_near(np.stack([low, high]), disc.radius + reach)
+    return snapshot.layers.rows_near(np.stack([low, high]), disc.radius + reach, wanted)
 
 
 def _nearest_among(rows: Int64, codes: Int8, model: Model, snapshot: MapSnapshot) -> Int64:

@@ -9,6 +9,7 @@ from placecell_client.hints import OutsidePlace, SensorPose, UsedHints
 from scipy.spatial.transform import Rotation
 
 from placecell.core.cancellation import current
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.types import Float64, Int8, Int64
 from placecell.localization import (
     Candidates,
@@ -44,15 +45,18 @@ from service.search.sessions import Session
 class StoredNeighborhood:
     """Segments of a stored map around a position, for guided matching (`MapSegments`)."""
 
-    def __init__(self, codes: Int8, model: Model, snapshot: MapSnapshot) -> None:
+    def __init__(
+        self, codes: Int8, model: Model, snapshot: MapSnapshot, wanted: ClassFilter | None = None
+    ) -> None:
         """Compare with queries of these codes, int8 (q, code bytes), made by the map's model."""
         self._layers = snapshot.layers
+        self._wanted = wanted
         site = self._layers.sites.of(self._layers, model.manifest)
         self._comparison = QueryComparison(codes, model, site, comparable=True)
 
     def near(self, places: Float64, meters: float) -> tuple[Int64, Float64]:
         """Return the rows near some places, and their centroids."""
-        rows = self._layers.rows_near(places, meters)
+        rows = self._layers.rows_near(places, meters, self._wanted)
         return rows, self._layers.column("centroids", rows)
 
     def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
@@ -69,6 +73,7 @@ def map_query(
     k: int,
     evidence: Evidence | None = None,
     guesses: Callable[[MapSegments, Sequence[Hypothesis]], tuple[Pose, ...]] | None = None,
+    wanted: ClassFilter | None = None,
 ) -> MapQuery:
     """Search the candidates in one map.
 
@@ -81,9 +86,10 @@ def map_query(
         evidence: result of the robot's earlier requests.
         guesses: returns poses to try as well, given the map's segments, compared with the codes,
             and the hypotheses that were found without them.
+        wanted: filter of the map's segments.
     """
-    nearest = nearest_segments(codes, model, (snapshot,), k)
-    there = StoredNeighborhood(codes, model, snapshot)
+    nearest = nearest_segments(codes, model, (snapshot,), k, wanted=wanted)
+    there = StoredNeighborhood(codes, model, snapshot, wanted)
     queries = np.repeat(np.arange(len(codes)), nearest.rows.shape[1])
     probabilities = there.match_probabilities(queries, nearest.rows.ravel()).reshape(
         nearest.rows.shape
@@ -227,7 +233,9 @@ def localize(
 
     sensor = SensorPose((0.0, 0.0, 0.0) if query.sensor is None else query.sensor.tolist())
     hints = None if resolve_hints is None else resolve_hints(sensor)
-    answers = localize_among(groups, query.k, parameters, timing, parts, evidence, hints)
+    answers = localize_among(
+        groups, query.k, parameters, timing, parts, evidence, hints, query.wanted
+    )
     for each in answers:
         if session and each.is_full:
             hypotheses = each.localization.hypotheses
@@ -333,6 +341,7 @@ def localize_among(
     parts: Callable[[ModelQuery], list[IndexPart]],
     evidence: Callable[[MapSnapshot], Evidence | None],
     hints: ResolvedHints | None = None,
+    wanted: ClassFilter | None = None,
 ) -> list[MapLocalization]:
     """Localize the robot in any of the maps, the most probable first.
 
@@ -348,13 +357,14 @@ def localize_among(
         parts: gives the parts of the search in a model's maps at once.
         evidence: gives the result of the robot's earlier requests in a map.
         hints: where the robot says that it is.
+        wanted: filter of the segments of the maps.
     """
     past = {
         (number, place): evidence(snapshot)
         for number, group in enumerate(groups)
         for place, snapshot in enumerate(group.searched)
     }
-    chosen = _chosen(groups, past, parameters, parts, hints)
+    chosen = _chosen(groups, past, parameters, parts, hints, wanted)
 
     def query(place_of: tuple[int, int]) -> MapQuery:
         number, place = place_of
@@ -369,7 +379,8 @@ def localize_among(
             evidence=past[number, place],
             guesses=None
             if hints is None
-            else partial(_guesses, group, group.searched[place], parameters, hints),
+            else partial(_guesses, group, group.searched[place], parameters, hints, wanted),
+            wanted=wanted,
         )
 
     pairs = sum(
@@ -410,6 +421,7 @@ def _guesses(
     snapshot: MapSnapshot,
     parameters: LocalizationParameters,
     hints: ResolvedHints,
+    wanted: ClassFilter | None,
     there: MapSegments,
     found: Sequence[Hypothesis],
 ) -> tuple[Pose, ...]:
@@ -426,6 +438,7 @@ def _guesses(
         snapshot=snapshot,
         there=there,
         parameters=parameters,
+        wanted=wanted,
     )
 
 
@@ -463,6 +476,7 @@ def _chosen(
     parameters: LocalizationParameters,
     parts: Callable[[ModelQuery], list[IndexPart]],
     hints: ResolvedHints | None = None,
+    wanted: ClassFilter | None = None,
 ) -> list[tuple[int, int]]:
     """Choose the maps to search in full, by group and index.
 
@@ -473,7 +487,7 @@ def _chosen(
         return every
     votes = np.concatenate(
         [
-            votes_of(group.codes, group.centroids, group.searched, parts(group), parameters)
+            votes_of(group.codes, group.centroids, group.searched, parts(group), parameters, wanted)
             for group in groups
         ]
     )

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from placecell.core.cancellation import current
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.types import Float64, Int8, Int64
 from placecell.descriptors.reranking import rerank, supports
 from service.inference.describer import Descriptors, SegmentError
@@ -166,7 +167,7 @@ def match(
             described.codes[described.usable],
             index_parts(maps, model, searched, patterns),
         )
-        found = nearest_segments(codes, model, searched, query.searched_k, parts)
+        found = nearest_segments(codes, model, searched, query.searched_k, parts, query.wanted)
         if query.is_reranked:
             assert described.centroids is not None
             found = reranked(found, described.centroids[described.usable], query.k)
@@ -180,6 +181,7 @@ def nearest_segments(
     searched: tuple[MapSnapshot, ...],
     k: int,
     parts: Sequence[IndexPart] | None = None,
+    wanted: ClassFilter | None = None,
 ) -> NearestSegments:
     """Return the k nearest segments over all maps of one model.
 
@@ -189,6 +191,7 @@ def nearest_segments(
         searched: maps with an index, by name.
         k: largest number of candidates of a query.
         parts: parts of the search that cover the maps; None: each map is searched by itself.
+        wanted: filter of the segments of the maps.
     """
     token = current()
     if parts is None:
@@ -196,7 +199,7 @@ def nearest_segments(
 
     def search(part: IndexPart) -> tuple[Float64, Int64, Int64]:
         token.check()
-        return _search_part(codes, searched, part, k)
+        return _search_part(codes, searched, part, k, wanted)
 
     rows = sum(_rows_of(searched, part) for part in parts)
     together = len(parts) > 1 and is_large(len(codes) * rows)
@@ -232,17 +235,21 @@ def reranked(nearest: NearestSegments, centroids: Float64, k: int) -> NearestSeg
 
 
 def _search_part(
-    codes: Int8, searched: tuple[MapSnapshot, ...], part: IndexPart, k: int
+    codes: Int8,
+    searched: tuple[MapSnapshot, ...],
+    part: IndexPart,
+    k: int,
+    wanted: ClassFilter | None,
 ) -> tuple[Float64, Int64, Int64]:
     """Search one part: distances in steps, maps and rows of the k nearest, (q, up to k) each."""
     if part.shared is None:
         place = int(part.places[0])
         snapshot = searched[place]
         assert snapshot.index is not None
-        distances, rows = snapshot.index.search(snapshot.layers, codes, k)
+        distances, rows = snapshot.index.search(snapshot.layers, codes, k, wanted)
         return distances, np.full_like(rows, place), rows
     shared = part.shared
-    distances, found = shared.index.search(codes, k, part.hidden)
+    distances, found = shared.among(wanted).search(codes, k, part.hidden)
     members = np.searchsorted(shared.starts, found, side="right") - 1
     return distances, part.places[members], shared.rows[found]
 

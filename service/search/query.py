@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.types import Float64
 from placecell.descriptors.reranking import CANDIDATES
 from service.core.auth import Principal
@@ -58,6 +59,7 @@ class Query:
         is_reranked: whether the candidates of `/match` are re-ranked.
         sensor: median sensor position of the request's scan, float64 (3,), meters; None if the
             request has descriptors.
+        wanted: filter of the segments by class, of the maps and of the request; None: all.
     """
 
     model_id: str
@@ -68,22 +70,23 @@ class Query:
     searched_k: int
     is_reranked: bool
     sensor: Float64 | None = None
+    wanted: ClassFilter | None = None
 
     async def describe(self, timing: Timing) -> list[Descriptors]:
         """Return the descriptors by each model of the selection, computed in batches."""
         if self.given is not None:
-            return [self.given]
+            return [self.given.searched(self.wanted)]
         return [
-            await model.describer.describe(prepared, timing)
+            (await model.describer.describe(prepared, timing)).searched(self.wanted)
             for (model, _), prepared in zip(self.selection.searched, self.prepared, strict=True)
         ]
 
     def describe_alone(self) -> list[Descriptors]:
         """Return the descriptors as `describe` does, without an event loop."""
         if self.given is not None:
-            return [self.given]
+            return [self.given.searched(self.wanted)]
         return [
-            model.describer.describe_alone(prepared)
+            model.describer.describe_alone(prepared).searched(self.wanted)
             for (model, _), prepared in zip(self.selection.searched, self.prepared, strict=True)
         ]
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from placecell.core.cancellation import current
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.spatial import evenly
 from placecell.core.types import Float32, Float64, Int8, Int64
 from placecell.localization import LocalizationParameters
@@ -61,6 +62,7 @@ def votes_of(
     searched: Sequence[MapSnapshot],
     parts: Sequence[IndexPart],
     parameters: LocalizationParameters,
+    wanted: ClassFilter | None = None,
 ) -> Int64:
     """Count for each map how many segments agree about one place, int64 (maps,).
 
@@ -70,6 +72,7 @@ def votes_of(
         searched: maps of one model.
         parts: parts of the search that cover these maps.
         parameters: tolerances within which two candidates agree.
+        wanted: filter of the segments of the maps.
     """
     token = current()
     asked = evenly(np.flatnonzero(np.isfinite(centroids).all(axis=1)), SEGMENTS)
@@ -80,7 +83,7 @@ def votes_of(
 
     def voters(part: IndexPart) -> Voters:
         token.check()
-        return _voters(codes, searched, part)
+        return _voters(codes, searched, part, wanted)
 
     found = [*in_threads(voters, parts)]
     places = np.concatenate([each.places for each in found])
@@ -159,19 +162,21 @@ def warm_up() -> None:
     )
 
 
-def _voters(codes: Int8, searched: Sequence[MapSnapshot], part: IndexPart) -> Voters:
+def _voters(
+    codes: Int8, searched: Sequence[MapSnapshot], part: IndexPart, wanted: ClassFilter | None
+) -> Voters:
     """Return the candidates of one part of the search."""
     shared = part.shared
     if shared is None:
         place = int(part.places[0])
         snapshot = searched[place]
         assert snapshot.index is not None
-        distances, rows = snapshot.index.search(snapshot.layers, codes, OWN)
+        distances, rows = snapshot.index.search(snapshot.layers, codes, OWN, wanted)
         queries = np.repeat(np.arange(len(codes)), rows.shape[1])
         points = centered(snapshot.layers.column("centroids", rows.ravel()))
         squared = np.asarray(distances.ravel() ** 2, np.float32)
         return Voters(np.full(len(queries), place), queries, points, squared)
-    squared, rows = shared.index.rough(codes, min(NEAREST, len(shared.rows)))
+    squared, rows = shared.among(wanted).rough(codes, min(NEAREST, len(shared.rows)))
     queries = np.repeat(np.arange(len(codes)), rows.shape[1])
     flat = rows.ravel()
     members = np.searchsorted(shared.starts, flat, side="right") - 1

@@ -17,6 +17,7 @@ from service.api.schemas.recognition import (
     MatchQuery,
     MatchRequest,
     Point,
+    QueryClasses,
     Request,
     ScanRequest,
 )
@@ -76,11 +77,11 @@ class CutDescribeRequest(ScanRequest[CutSegment]):
     """`DescribeRequest` with its arrays cut out."""
 
 
-class CutMatchRequest(MatchQuery[CutSegment, CutCodes, CutCentroids]):
+class CutMatchRequest(MatchQuery[CutSegment, CutCodes, CutCentroids, QueryClasses]):
     """`MatchRequest` with its arrays cut out."""
 
 
-class CutLocalizeRequest(LocalizeQuery[CutSegment, CutCodes, CutCentroids]):
+class CutLocalizeRequest(LocalizeQuery[CutSegment, CutCodes, CutCentroids, QueryClasses]):
     """`LocalizeRequest` with its arrays cut out."""
 
 

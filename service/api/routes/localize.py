@@ -39,7 +39,7 @@ INLIERS = 200
 
 router = APIRouter(tags=["recognition"])
 
-LocalizeBody = LocalizeQuery[Any, Any, Any]
+LocalizeBody = LocalizeQuery[Any, Any, Any, Any]
 
 
 @router.post(

@@ -12,10 +12,12 @@ from service.api.schemas.recognition import (
     EXAMPLE,
     Centroids,
     CentroidsT,
+    ClassesT,
     Codes,
     CodesT,
     ItemErrorOut,
     Point,
+    QueryClasses,
     QueryRequest,
     SegmentIn,
     SegmentT,
@@ -25,7 +27,9 @@ from service.api.schemas.recognition import (
 SessionId = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9._-]{1,64}$")]
 
 
-class LocalizeQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, CentroidsT]):
+class LocalizeQuery(
+    QueryRequest[SegmentT, CodesT, ClassesT], Generic[SegmentT, CodesT, CentroidsT, ClassesT]
+):
     """Segments or descriptors that a robot sees, and the maps to search, in either encoding."""
 
     centroids: CentroidsT | None = Field(
@@ -72,7 +76,7 @@ class LocalizeQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, Ce
         return self
 
 
-class LocalizeRequest(LocalizeQuery[SegmentIn, Codes, Centroids]):
+class LocalizeRequest(LocalizeQuery[SegmentIn, Codes, Centroids, QueryClasses]):
     """Segments, or descriptors with centroids, that a robot sees, and the maps to search."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE]}]})

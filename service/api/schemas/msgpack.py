@@ -21,7 +21,8 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails
 
-from placecell.core.types import Float32, Float64, Int8
+from placecell.core.segment_classes import HIGHEST
+from placecell.core.types import Float32, Float64, Int8, UInt8
 from service.api.schemas.localization import LocalizeQuery
 from service.api.schemas.recognition import (
     DescriptorsResponse,
@@ -90,6 +91,16 @@ def _codes(blob: object) -> Int8:
     return np.frombuffer(data, np.int8)
 
 
+def _classes(blob: object) -> UInt8:
+    """Decode the classes of a blob, uint8 (q,)."""
+    classes = np.frombuffer(_bin(blob), np.uint8)
+    if not len(classes):
+        raise ValueError("expected at least one class, found 0 bytes")
+    if classes.max() > HIGHEST:
+        raise ValueError(f"found the byte {classes.max()}, expected 0 to {HIGHEST}")
+    return classes
+
+
 def _bin(value: object) -> bytes:
     if not isinstance(value, bytes):
         raise ValueError("expected binary data (bin)")
@@ -111,6 +122,7 @@ _BLOB = WithJsonSchema({"type": "string", "format": "binary"})
 PointsBlob = Annotated[Float32, PlainValidator(_points), _BLOB]
 CentroidsBlob = Annotated[Float64, PlainValidator(_centroids), _BLOB]
 CodesBlob = Annotated[Int8, PlainValidator(_codes), _BLOB]
+ClassesBlob = Annotated[UInt8, PlainValidator(_classes), _BLOB]
 
 
 def _keyed(value: object) -> dict[str, object]:
@@ -158,7 +170,9 @@ class PackedDescribeRequest(PackedRequest, ScanRequest[PackedSegment]):
     """`DescribeRequest` as msgpack."""
 
 
-class PackedMatchRequest(PackedRequest, MatchQuery[PackedSegment, CodesBlob, CentroidsBlob]):
+class PackedMatchRequest(
+    PackedRequest, MatchQuery[PackedSegment, CodesBlob, CentroidsBlob, ClassesBlob]
+):
     """`MatchRequest` as msgpack; codes are int8, centroids are little-endian float64 x, y, z."""
 
 
@@ -169,7 +183,9 @@ def _unpaired(value: object) -> object:
     return value
 
 
-class PackedLocalizeRequest(PackedRequest, LocalizeQuery[PackedSegment, CodesBlob, CentroidsBlob]):
+class PackedLocalizeRequest(
+    PackedRequest, LocalizeQuery[PackedSegment, CodesBlob, CentroidsBlob, ClassesBlob]
+):
     """`LocalizeRequest` as msgpack; codes are int8, centroids are little-endian float64 x, y, z."""
 
     @field_validator("hints", mode="before")

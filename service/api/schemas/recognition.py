@@ -3,7 +3,7 @@
 from typing import Annotated, Generic, Literal, Self, TypeVar
 
 from placecell_client.maps.compact_map import COORDINATE_LIMIT
-from pydantic import BaseModel, ConfigDict, Field, JsonValue, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, JsonValue, model_validator
 
 from service.core.settings import NAMED_MAPS
 
@@ -20,6 +20,26 @@ Covariance = Annotated[
 ]
 Name = Annotated[str, Field(strict=True)]
 ClassName = Literal["building", "vegetation", "pole", "vehicle", "person", "fence", "sign", "other"]
+IgnoredName = Literal[
+    "building", "vegetation", "pole", "vehicle", "person", "fence", "sign", "other", "movable"
+]
+
+
+def _listed(value: object) -> object:
+    """Return a single name as a list."""
+    return [value] if isinstance(value, str) else value
+
+
+ClassNames = Annotated[
+    list[ClassName],
+    Field(min_length=1, max_length=32),
+    BeforeValidator(_listed, json_schema_input_type=ClassName | list[ClassName]),
+]
+IgnoredNames = Annotated[
+    list[IgnoredName],
+    Field(max_length=32),
+    BeforeValidator(_listed, json_schema_input_type=IgnoredName | list[IgnoredName]),
+]
 Code = Annotated[int, Field(strict=True, ge=-128, le=127)]
 Centroids = Annotated[list[Point], Field(fail_fast=True, min_length=1)]
 Codes = Annotated[
@@ -52,6 +72,18 @@ class SegmentIn(Request):
     )
 
 
+class ClassIn(Request):
+    """Class of a segment, as `/describe` returns it."""
+
+    name: ClassName
+    probability: float = Field(
+        strict=True, allow_inf_nan=False, ge=0, le=1, description="Probability of this class."
+    )
+
+
+QueryClasses = Annotated[list[ClassIn | None], Field(fail_fast=True, min_length=1)]
+
+
 class ScanRequest(Request, Generic[SegmentT]):
     """Segments of one scan, in either encoding."""
 
@@ -66,7 +98,7 @@ class ScanRequest(Request, Generic[SegmentT]):
     )
 
 
-class QueryRequest(Request, Generic[SegmentT, CodesT]):
+class QueryRequest(Request, Generic[SegmentT, CodesT, ClassesT]):
     """Queries, as segments or as descriptors, and the maps to search, in either encoding."""
 
     segments: Annotated[list[SegmentT], Field(fail_fast=True)] | None = Field(None, min_length=1)
@@ -84,6 +116,22 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
         None, min_length=1, description="Search only maps that have all of these tags."
     )
     k: int = Field(10, ge=1, strict=True, description="Largest number of candidates per query.")
+    classes: ClassNames | None = Field(
+        None,
+        description="Search only map segments of these classes. A segment whose class is unknown "
+        "has none of them. Queries of other classes are left out; queries of an unknown class are "
+        "searched. Null: all segments.",
+    )
+    ignore: IgnoredNames | None = Field(
+        None,
+        description="Leave out map segments and queries of these classes; `movable` names vehicle "
+        "and person. A segment whose class is unknown is never left out.",
+    )
+    query_classes: ClassesT | None = Field(
+        None,
+        description="Class of each code's segment, as `/describe` returns it in `classes`. Only "
+        "`classes` and `ignore` use it.",
+    )
 
     @model_validator(mode="after")
     def _one_kind_of_query(self) -> Self:
@@ -92,6 +140,8 @@ class QueryRequest(Request, Generic[SegmentT, CodesT]):
         for_segments = self.segments is not None and self.codes is None and self.model_id is None
         if not for_codes and not for_segments:
             raise ValueError("the request needs either segments, or model_id and codes")
+        if self.query_classes is not None and not for_codes:
+            raise ValueError("the request has segments, so it needs no query_classes")
         return self
 
 
@@ -108,7 +158,9 @@ class DescribeRequest(ScanRequest[SegmentIn]):
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE]}]})
 
 
-class MatchQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, CentroidsT]):
+class MatchQuery(
+    QueryRequest[SegmentT, CodesT, ClassesT], Generic[SegmentT, CodesT, CentroidsT, ClassesT]
+):
     """Queries, as segments or as descriptors, and the maps to search, in either encoding."""
 
     centroids: CentroidsT | None = Field(
@@ -130,7 +182,7 @@ class MatchQuery(QueryRequest[SegmentT, CodesT], Generic[SegmentT, CodesT, Centr
         return self
 
 
-class MatchRequest(MatchQuery[SegmentIn, Codes, Centroids]):
+class MatchRequest(MatchQuery[SegmentIn, Codes, Centroids, QueryClasses]):
     """Queries, as segments or as descriptors, and the maps to search."""
 
     model_config = ConfigDict(json_schema_extra={"examples": [{"segments": [EXAMPLE], "k": 5}]})
