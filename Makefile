@@ -17,7 +17,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses $(JOBS) --dist loadfile --no-lo
 # Tests and the services that they start load compiled modules instead of compiling them again.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo serve test test-fast lint format docs reference page install lock peers clean help
+.PHONY: demo serve test test-fast test-postgres lint format docs reference page install lock peers clean help
 
 help:  ## Show this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -37,6 +37,9 @@ IN_MEMORY := $(if $(wildcard /dev/shm),PYTEST_DEBUG_TEMPROOT=/dev/shm)
 test-fast: install  ## Run the fast tests in a minute: core, client, HTTP routes
 	$(IN_MEMORY) $(PYTEST) --hypothesis-profile=fast \
 		-m "not slow and not integration and not recorded" $(FAST)
+
+test-postgres: install  ## Run the tests of the service on PostgreSQL in place of SQLite
+	PLACECELL_TEST_STORE=postgres $(PYTEST) --hypothesis-profile=fast -r s tests/service
 
 lint: install  ## Check style and types
 	$(BIN)/ruff check .

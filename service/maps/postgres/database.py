@@ -40,12 +40,12 @@ PAUSE_SECONDS = 0.1
 """Seconds between two tries."""
 
 STATEMENT_SECONDS = 20.0
-"""Seconds that a statement or a commit may take."""
+"""Seconds that a statement or a commit may take, unless a transaction states another limit."""
 
 LOCK_SECONDS = 3.0
 """Seconds to wait for a row that another transaction has locked."""
 
-IDLE_SECONDS = 5.0
+IDLE_SECONDS = 2.0
 """Seconds without a statement after which the server ends a write, so that a stopped service holds
 no lock."""
 
@@ -70,16 +70,34 @@ SYNC_CANCELED = {"57014", "57P01"}
 logger = logging.getLogger("placecell")
 
 
+class PlainWords(logging.Filter):
+    """Tells in plain words what the pool logs about a connection, without the driver's object."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Change a record; return True, so that it is logged."""
+        arguments = record.args if isinstance(record.args, tuple) else ()
+        if any(isinstance(each, psycopg.Connection) for each in arguments):
+            record.msg = "A connection to the database was lost. Another one replaces it."
+            record.args = ()
+        return True
+
+
+logging.getLogger("psycopg.pool").addFilter(PlainWords())
+
+
 class PostgresRows:
     """Statements on one connection; each has a time limit."""
 
-    def __init__(self, connection: Connection, watchdog: Watchdog) -> None:
+    def __init__(
+        self, connection: Connection, watchdog: Watchdog, seconds: float | None = None
+    ) -> None:
         self._connection = connection
         self._watchdog = watchdog
+        self._seconds = STATEMENT_SECONDS if seconds is None else seconds
 
     def execute(self, statement: str, values: Sequence[Any] = (), /) -> Any:
         """Run a statement; return its cursor."""
-        with self._watchdog.limit(self._connection, STATEMENT_SECONDS):
+        with self._watchdog.limit(self._connection, self._seconds):
             return self._connection.execute(_in_dialect(statement), values or None)
 
     def executemany(self, statement: str, values: Iterable[Sequence[Any]], /) -> Any:
@@ -87,7 +105,7 @@ class PostgresRows:
         rows = list(values)
         cursor = self._connection.cursor()
         if rows:
-            with self._watchdog.limit(self._connection, STATEMENT_SECONDS):
+            with self._watchdog.limit(self._connection, self._seconds):
                 cursor.executemany(_in_dialect(statement), rows)
         return cursor
 
@@ -156,11 +174,16 @@ class PostgresDatabase:
         with self._watchdog.limit(connection, seconds + STATEMENT_SECONDS):
             yield
 
-    def transaction(self, work: Work[Result]) -> Result:
+    def transaction(self, work: Work[Result], seconds: float | None = None) -> Result:
         """Run writes as one transaction, durable on return.
 
         If the connection is lost, they run again on another one. If that was during the commit, its
         outcome is not known; the next run is told so and finds out.
+
+        Args:
+            work: the writes.
+            seconds: seconds that a statement or the commit may take; STATEMENT_SECONDS unless
+                given.
 
         Raises:
             StoreError: nothing was changed; unless its message says that this is not known.
@@ -170,7 +193,7 @@ class PostgresDatabase:
         while True:
             attempt = _Attempt()
             try:
-                return self._run(work, unsure, attempt)
+                return self._run(work, unsure, attempt, seconds)
             except PoolTimeout as error:
                 failed = self._unreachable(error)
                 if not unsure:
@@ -214,15 +237,18 @@ class PostgresDatabase:
                 held.push(trying.pop_all())
                 return connection
 
-    def _run(self, work: Work[Result], unsure: bool, attempt: "_Attempt") -> Result:
+    def _run(
+        self, work: Work[Result], unsure: bool, attempt: "_Attempt", seconds: float | None
+    ) -> Result:
+        seconds = STATEMENT_SECONDS if seconds is None else seconds
         with self._pool.connection() as connection:
             try:
-                rows = PostgresRows(connection, self._watchdog)
+                rows = PostgresRows(connection, self._watchdog, seconds)
                 result = work(rows, unsure)
                 attempt.is_committing = True
                 with (
                     _noticing(connection) as notices,
-                    self._watchdog.limit(connection, STATEMENT_SECONDS),
+                    self._watchdog.limit(connection, seconds),
                 ):
                     connection.commit()
             except psycopg.Error as error:

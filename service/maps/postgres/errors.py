@@ -13,7 +13,7 @@ _KINDS: Sequence[tuple[tuple[str, ...], Trouble, str]] = (
     (("55P03", "57014", "40001", "40P01"), "busy", "another service holds the map's row"),
     (("XX001", "XX002"), "damaged", "the database is damaged"),
     (("42P01", "3F000"), "moved", "a table was removed while the service ran"),
-    (("08", "57P", "53300"), "unreachable", "the database cannot be reached"),
+    (("08", "57P", "53300", "25P03"), "unreachable", "the database cannot be reached"),
 )
 """Beginnings of SQLSTATE codes, the kind of the error, and its meaning."""
 

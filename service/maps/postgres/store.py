@@ -1,6 +1,7 @@
 """PostgreSQL map store: all maps in one database, which several services read and write."""
 
 import logging
+import math
 import secrets
 import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
@@ -298,7 +299,8 @@ class PostgresStore:
             rows.execute("SELECT pg_notify(?, '')", (CHANNEL,))
             return heads
 
-        return self._database.transaction(store)
+        # A large database takes its time, and no service waits for this.
+        return self._database.transaction(store, seconds=math.inf)
 
     def release_space(self) -> None:
         """Do nothing: PostgreSQL reuses the space of removed rows by itself."""

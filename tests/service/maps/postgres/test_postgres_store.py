@@ -4,9 +4,11 @@ import builtins
 import logging
 import os
 import signal
+import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import psycopg
@@ -18,6 +20,8 @@ from service.maps.postgres import database, watchdog
 from service.maps.postgres.durability import durability_warnings
 from service.maps.postgres.store import PostgresStore
 from service.maps.postgres.tables import LAYOUT, SCHEMA
+from service.maps.sql import operations
+from service.maps.sqlite.store import SqliteMapStore
 from service.maps.store import Annotation, MapHead, Note, StoreError
 from service.maps.stores import open_store
 from tests.service.postgres_server import PostgresServer
@@ -80,6 +84,58 @@ def test_write_whose_answer_was_lost_is_stored_once(
     lose_commits(monkeypatch, is_done)
     store.delete(head.uid)
     assert store.heads() == []
+
+
+def test_write_that_the_server_ended_for_idleness_is_repeated(
+    store: PostgresStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The service was stopped within a write, so the server freed the map for the others."""
+    head = store.create("yard", b"file", NOTE, 0)
+    append, calls = operations.append_commit, list[Any]()
+
+    def slow(rows: Any, *arguments: Any) -> MapHead:
+        calls.append(arguments)
+        if len(calls) == 1:
+            rows.execute("SET LOCAL idle_in_transaction_session_timeout = '50ms'")
+            time.sleep(0.4)
+        return append(rows, *arguments)
+
+    monkeypatch.setattr("service.maps.postgres.store.append_commit", slow)
+    assert store.append(head, b"one", NOTE, 0).sequence == 2
+    assert len(calls) == 2
+
+
+def test_import_may_take_longer_than_other_writes(
+    store: PostgresStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with SqliteMapStore.owned(tmp_path) as source:
+        source.create("yard", b"file", NOTE, 0)
+        with source.snapshot() as maps:
+            monkeypatch.setattr(database, "STATEMENT_SECONDS", -1.0)  # each wait is too long
+            monkeypatch.setattr(watchdog, "TICK_SECONDS", 0.01)
+            run = operations.import_all
+
+            def slow(rows: Any, *arguments: Any) -> list[MapHead]:
+                rows.execute("SELECT pg_sleep(0.7)")
+                return run(rows, *arguments)
+
+            monkeypatch.setattr("service.maps.postgres.store.import_all", slow)
+            assert [each.name for each in store.import_maps(maps, replaces=True)] == ["yard"]
+
+
+def test_lost_connection_is_logged_in_plain_words(
+    store: PostgresStore,
+    postgres_server: PostgresServer,
+    postgres_database: str,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    postgres_server.execute(
+        "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = "
+        f"'{postgres_database.rpartition('/')[2]}'"
+    )
+    store.create("yard", b"file", NOTE, 0)
+    assert "A connection to the database was lost" in caplog.text
+    assert "psycopg" not in " ".join(each.getMessage() for each in caplog.records)
 
 
 def test_commit_is_found_although_another_service_wrote_after_it(
@@ -301,8 +357,10 @@ def test_services_that_start_at_once_create_the_tables_once(postgres_database: s
 
 
 def test_server_without_the_promise_is_warned_about(
-    postgres_database: str, caplog: pytest.LogCaptureFixture
+    postgres_database: str, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    # A run of all tests on PostgreSQL hears no such warnings otherwise.
+    monkeypatch.setattr("service.maps.postgres.store.durability_warnings", durability_warnings)
     with caplog.at_level(logging.WARNING), PostgresStore.opened(postgres_database):
         pass
     assert "has no synchronous standby. Add two standbys" in caplog.text
