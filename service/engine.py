@@ -58,7 +58,7 @@ from service.maps.history import commits_of, version_file
 from service.maps.quotas import Quotas
 from service.maps.repository import MapRepository
 from service.maps.shared_index import Patterns
-from service.maps.snapshot import MapSnapshot
+from service.maps.snapshot import MapEntry, MapSnapshot
 from service.maps.store import Commit, MapStore, SharedStore, StoreError, StoreLockedError
 from service.maps.stores import open_store
 from service.maps.sync import MapSync, SyncPage
@@ -138,7 +138,12 @@ class Engine:
                 store = opened.enter_context(open_store(settings))
                 cache = MapCache(settings.data_dir)
                 self.maps = MapRepository(
-                    store, self.models, Quotas(limits), cache, patterns=settings.maps
+                    store,
+                    self.models,
+                    Quotas(limits),
+                    cache,
+                    patterns=settings.maps,
+                    most_segments=settings.loaded_segments,
                 )
             except (StoreLockedError, StoreError) as error:
                 raise StartError(f"{place}: {error}") from error
@@ -178,11 +183,12 @@ class Engine:
             opened.enter_context(maintenance.running())
             self._open_parts = opened.pop_all()
         metrics.maps.set_function(lambda: len(self.maps))
+        metrics.loaded_maps.set_function(lambda: len(self.maps.all()))
         metrics.robots.set_function(lambda: len(self.robots))
         metrics.event_clients.set_function(lambda: len(self.events))
         for name in get_args(CalibrationState):
             metrics.calibrated.labels(name).set_function(partial(self._maps_with, name))
-        metrics.map_segments.set_function(lambda: sum(len(each) for each in self.maps.all()))
+        metrics.map_segments.set_function(lambda: sum(len(each) for each in self.maps.entries()))
 
     @classmethod
     def open(
@@ -382,7 +388,7 @@ class Engine:
                 too much work, 422 if no segment can be described.
         """
 
-        def is_tagged(snapshot: MapSnapshot) -> bool:
+        def is_tagged(snapshot: MapEntry) -> bool:
             return tags is None or {*tags} <= {*self.annotations.tags(snapshot)}
 
         if isinstance(seen, Descriptors):
@@ -440,7 +446,7 @@ class Engine:
             hints=hints,
             searched=query.selection.maps,
             sensor=sensor,
-            known=lambda name: self.maps.find(name) is not None,
+            known=lambda name: self.maps.entry(name) is not None,
             tags_of=self.annotations.tags,
             anchor_of=self.annotations.geo_anchor,
             principal=principal,
@@ -503,8 +509,8 @@ class Engine:
         """Return the mark of a map that is a copy of another service's; None for other maps."""
         if name in self.maps.damaged():
             return None
-        snapshot = self.maps.find(name)
-        return None if snapshot is None else self.annotations.of(snapshot).mirror
+        entry = self.maps.entry(name)
+        return None if entry is None else self.annotations.of(entry).mirror
 
     def annotation_writer(
         self, principal: Principal = ANYONE, conditions: Preconditions = NO_CONDITIONS
@@ -666,7 +672,7 @@ class Engine:
             remedy: what to do instead, for the error.
             parameters: parameters of the alignments; the default ones unless given.
         """
-        snapshots = [snapshot for each in names if (snapshot := self.maps.find(each)) is not None]
+        snapshots = [entry for each in names if (entry := self.maps.entry(each)) is not None]
         sizes = [len(each) for each in snapshots]
         cost = cost_of_aligning(sizes, K, parameters or AlignmentParameters())
         check_cost(cost, self.settings.limits.alignment_seconds, remedy)

@@ -18,7 +18,7 @@ from service.core.settings import Limits
 from service.maps.layers import MapLayers
 from service.maps.quotas import OverQuotaError
 from service.maps.repository import OutdatedError
-from service.maps.snapshot import MapSnapshot
+from service.maps.snapshot import MapEntry, MapSnapshot
 from service.maps.store import Annotation, MapStore
 
 TAG, GEO, NAMED, MIRROR = "tag", "anchor", "pose", "mirror"
@@ -127,15 +127,15 @@ class Annotations:
         self._lock = Lock()
         self._by_uid = {uid: _parsed(rows) for uid, rows in store.annotations().items()}
 
-    def of(self, snapshot: MapSnapshot) -> MapAnnotations:
+    def of(self, snapshot: MapEntry) -> MapAnnotations:
         """Return the annotations of a map."""
         return self._by_uid.get(snapshot.head.uid, NOTHING)
 
-    def tags(self, snapshot: MapSnapshot) -> tuple[str, ...]:
+    def tags(self, snapshot: MapEntry) -> tuple[str, ...]:
         """Return the tags of a map."""
         return self.of(snapshot).tags
 
-    def geo_anchor(self, snapshot: MapSnapshot) -> GeoAnchor | None:
+    def geo_anchor(self, snapshot: MapEntry) -> GeoAnchor | None:
         """Return the WGS 84 anchor of a map; None if it has none in its present frame."""
         geo = self.of(snapshot).geo
         return geo.anchor if geo is not None and geo.frame == snapshot.frame else None

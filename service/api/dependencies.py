@@ -20,6 +20,9 @@ from service.core.auth import Principal
 from service.core.preconditions import Preconditions
 from service.core.problems import Problem
 from service.core.timing import Timing
+from service.maps.following.follower import behind
+from service.maps.repository import MapRepository
+from service.maps.snapshot import ColdMap
 from service.maps.writes.writer import MapWriter, WriteResult
 
 MIRROR_HEADER = "Placecell-Mirror"
@@ -64,6 +67,7 @@ PrincipalOf = Annotated[Principal, Depends(principal_of)]
 
 
 async def caught_up(
+    request: Request,
     state: StateOf,
     principal: PrincipalOf,
     seen: Annotated[
@@ -75,21 +79,26 @@ async def caught_up(
         ),
     ] = None,
 ) -> None:
-    """Load the versions that the request needs, if other services wrote them; 503 if it cannot."""
-    del principal  # nothing is loaded for a request without a known key
-    follower = state.engine.follower
-    if follower is None:
-        return
-    needs: list[Callable[[], None]] = []
-    if seen is not None and not follower.has_all(seen):
+    """Load the maps and versions that the request needs and that are not here; 503 if it cannot."""
+    maps, follower = state.engine.maps, state.engine.follower
+    needs: list[Callable[[], object]] = []
+    if follower is not None and seen is not None and not follower.has_all(seen):
         needs.append(partial(follower.catch_up_with, seen))
-    if state.settings.reads == "latest":
+    if follower is not None and state.settings.reads == "latest":
         needs.append(follower.catch_up_all)
+    if maps.most_segments:
+        # Only maps that the key opens. The routes tell what is wrong with the others.
+        named = [request.path_params.get(each, "") for each in ("map", "other")]
+        needs += [partial(maps.find, each) for each in named if _is_cold(maps, principal, each)]
     for load in needs:
         with anyio.move_on_after(CATCH_UP_SECONDS) as scope:
             await anyio.to_thread.run_sync(load, abandon_on_cancel=True, limiter=state.catching_up)
         if scope.cancelled_caught:
-            raise follower.behind()
+            raise behind()
+
+
+def _is_cold(maps: MapRepository, principal: Principal, name: str) -> bool:
+    return principal.covers(name) and isinstance(maps.peek(name), ColdMap)
 
 
 async def preconditions_of(

@@ -15,7 +15,7 @@ from service.api.schemas.maps import MapDetailOut, MapOut, MirrorOut, VersionOut
 from service.core.auth import Principal
 from service.core.problems import title_of, type_of
 from service.inference.describer import SegmentError
-from service.maps.snapshot import MapSnapshot, tag_of
+from service.maps.snapshot import MapEntry, MapSnapshot, tag_of
 from service.maps.store import Commit
 from service.maps.visibility import author_for, sources_for
 from service.maps.writes.writer import WriteResult
@@ -48,9 +48,9 @@ def skipped_maps(selection: MapSelection) -> list[dict[str, str]]:
     return [{"map": each.name, "model_id": each.model_id} for each in selection.skipped]
 
 
-def summary_of(snapshot: MapSnapshot, principal: Principal, tags: Sequence[str]) -> MapOut:
+def summary_of(snapshot: MapEntry, principal: Principal, tags: Sequence[str]) -> MapOut:
     """Summarize a map as a key may see it; reads the whole map, so call it in a thread."""
-    head, layers = snapshot.head, snapshot.layers
+    head, summary = snapshot.head, snapshot.summary
     return MapOut(
         name=snapshot.name,
         segments=len(snapshot),
@@ -59,10 +59,10 @@ def summary_of(snapshot: MapSnapshot, principal: Principal, tags: Sequence[str])
         bytes=head.bytes,
         model_id=snapshot.model_id,
         frame=snapshot.frame,
-        robots=dict(sorted(layers.robots.items())),
-        sources=sources_for(principal, layers.sources),
-        time_span=layers.time_span,
-        optional=sorted(layers.optional),
+        robots=dict(sorted(summary.robots.items())),
+        sources=sources_for(principal, summary.sources),
+        time_span=summary.time_span,
+        optional=[*summary.optional],
         tags=[*tags],
     )
 

@@ -60,6 +60,7 @@ class Metrics:
             "placecell_writes", "Number of writes to maps.", ["operation"], registry=of
         )
         self.maps = Gauge("placecell_maps", "Number of stored maps.", registry=of)
+        self.loaded_maps = Gauge("placecell_loaded_maps", "Number of maps in memory.", registry=of)
         self.store_lag = Gauge(
             "placecell_store_lag_seconds",
             "Seconds since all maps were level with the database; 0 without a database. Up to a "

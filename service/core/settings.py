@@ -339,6 +339,13 @@ class Settings(BaseSettings):
         description="Database of the stored maps: postgresql://USER:PASSWORD@HOST:PORT/DATABASE, "
         "which several services may use. If it is empty, the maps are in the data directory.",
     )
+    loaded_segments: int = Field(
+        default=0,
+        ge=0,
+        description="Number of segments to keep in memory; 0 keeps all. Beyond it, the maps that "
+        "were used least recently leave the memory, and a request for one of them loads it again. "
+        "A segment takes about 100 bytes.",
+    )
     maps: tuple[str, ...] = Field(
         default=(),
         description="Patterns of the names of the maps to load, as a JSON list, such as "

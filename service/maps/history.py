@@ -12,14 +12,14 @@ from placecell.core.types import UInt32
 from service.core.problems import Problem
 from service.maps.cache import MapCache
 from service.maps.layers import MapLayers, robots_of
-from service.maps.snapshot import MapSnapshot, tag_of
+from service.maps.snapshot import MapEntry, MapSnapshot, tag_of
 from service.maps.store import Commit, MapHead, MapHistory, MapStore
 
 NO_IDS: UInt32 = np.zeros(0, np.uint32)
 
 
 @contextmanager
-def history_of(store: MapStore, snapshot: MapSnapshot) -> Iterator[MapHistory]:
+def history_of(store: MapStore, snapshot: MapEntry) -> Iterator[MapHistory]:
     """Read a map's log; 404 if the map was removed in the meantime."""
     try:
         with store.read(snapshot.head.uid) as history:
@@ -57,22 +57,24 @@ def ids_ever(store: MapStore, snapshot: MapSnapshot) -> UInt32:
         return np.unique(np.concatenate(ids))
 
 
-def load_newest(store: MapStore, head: MapHead, cache: MapCache) -> tuple[MapLayers, int]:
+def load_newest(store: MapStore, uid: str, cache: MapCache) -> tuple[MapHead, MapLayers, int]:
     """Load a map's newest version, starting from the cached version if the cache has a valid one.
 
     Returns:
-        The layers, and the sequence of the version that their base is.
+        The head, the layers, and the sequence of the version that their base is.
 
     Raises:
+        KeyError: there is no such map.
         StoreError: the stored data is damaged.
         MapFileError: the data was written by an incompatible version of Placecell.
     """
-    with store.read(head.uid) as history:
-        cached = cache.load(history)
+    with store.read(uid) as history:
+        head, cached = history.head, cache.load(history)
         if cached is None:
-            return replay(history, head.sequence), head.oldest
+            return head, replay(history, head.sequence), head.oldest
         content, sequence = cached
-        return _advanced(MapLayers.of(content), history, sequence, head.sequence), sequence
+        layers = _advanced(MapLayers.of(content), history, sequence, head.sequence)
+        return head, layers, sequence
 
 
 def load_version(store: MapStore, snapshot: MapSnapshot, sequence: int) -> tuple[MapLayers, str]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from service.core.problems import Problem
 from service.core.settings import Limits
-from service.maps.snapshot import MapSnapshot
+from service.maps.snapshot import MapEntry, MapSnapshot
 from service.maps.store import MapHead
 
 ADVICE = (
@@ -48,19 +48,19 @@ class Usage:
     by_key: Counter[str] = field(default_factory=Counter)
     robots: Counter[str] = field(default_factory=Counter)
 
-    def add(self, head: MapHead, snapshot: MapSnapshot | None = None) -> None:
+    def add(self, head: MapHead, snapshot: MapEntry | None = None) -> None:
         """Count a map; a damaged map has a head only."""
         self._count(head, snapshot, 1)
 
-    def remove(self, head: MapHead, snapshot: MapSnapshot | None = None) -> None:
+    def remove(self, head: MapHead, snapshot: MapEntry | None = None) -> None:
         """Stop counting a map."""
         self._count(head, snapshot, -1)
 
-    def _count(self, head: MapHead, snapshot: MapSnapshot | None, sign: int) -> None:
+    def _count(self, head: MapHead, snapshot: MapEntry | None, sign: int) -> None:
         self.maps += sign
         self.bytes += sign * head.bytes
         _add(self.by_key, head.author, sign)
-        for robot, segments in (snapshot.layers.robots if snapshot is not None else {}).items():
+        for robot, segments in (snapshot.robots if snapshot is not None else {}).items():
             _add(self.robots, robot, sign * segments)
 
 

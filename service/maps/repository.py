@@ -1,4 +1,8 @@
-"""Map repository: the stored maps in memory, searchable if their model is loaded."""
+"""Map repository: the stored maps in memory, searchable if their model is loaded.
+
+If a limit is set, the maps that were used least recently are cold: only their summary is in memory,
+and a request for one loads it.
+"""
 
 import logging
 import time
@@ -7,8 +11,9 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from fnmatch import fnmatchcase
+from itertools import count
 from threading import Lock
-from typing import Protocol
+from typing import Protocol, TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -24,11 +29,12 @@ from service.maps.index import LayeredIndex, MapIndex
 from service.maps.layers import MapLayers
 from service.maps.quotas import NoRoomError, Quotas, Usage
 from service.maps.shared_index import SharedIndexes
-from service.maps.snapshot import KEEPS_FRAME, MOVES_CAPTURES, MapSnapshot
+from service.maps.snapshot import KEEPS_FRAME, MOVES_CAPTURES, ColdMap, MapEntry, MapSnapshot
 from service.maps.store import Annotation, Ids, MapHead, MapStore, Note, StoreError
 
 logger = logging.getLogger("placecell")
 
+Entry = TypeVar("Entry", bound=MapEntry)
 
 KNOWN_VERSIONS = 64
 """Number of last versions of each map that `has_had` knows."""
@@ -65,6 +71,7 @@ class MapRepository:
         store: the store on disk.
         shared: indexes that several small maps share.
         copied_segments: number of segments that writes have copied.
+        most_segments: largest number of segments in memory; 0: no limit.
         on_delete: is called with the uid of each map that was deleted.
         catch_up: loads what other services wrote to the map of a name.
         anchors: anchors of the maps, which follow captures that are moved.
@@ -78,6 +85,7 @@ class MapRepository:
         cache: MapCache,
         clock: Callable[[], float] = time.time,
         patterns: Sequence[str] = (),
+        most_segments: int = 0,
     ) -> None:
         """Load the stored maps. A damaged map is logged and not served.
 
@@ -88,9 +96,12 @@ class MapRepository:
             cache: files of versions, for a fast start.
             clock: returns Unix seconds.
             patterns: patterns of the names of the maps to load; none: all maps.
+            most_segments: number of segments in memory beyond which the maps that were used least
+                recently are dropped, until a request needs them; 0: no limit.
         """
         self.store = store
         self.patterns = patterns
+        self.most_segments = most_segments
         self.catch_up: Callable[[str], None] = lambda _: None
         self.shared = SharedIndexes()
         self.copied_segments = 0
@@ -98,42 +109,53 @@ class MapRepository:
         self.anchors: FollowingAnchors | None = None
         self._models = models
         self._quotas = quotas
+        self._cache = cache
         self._clock = clock
         self._guard = Lock()
         self._locks: WeakValueDictionary[str, Lock] = WeakValueDictionary()
         self._committing = Lock()
         self._damaged: dict[str, MapHead] = {}
         self._by_name: dict[str, MapSnapshot] = {}
+        self._cold: dict[str, ColdMap] = {}
+        self._loads: WeakValueDictionary[str, Lock] = WeakValueDictionary()
+        self._uses = count()
+        self._used: dict[str, int] = {}
         self._usage = Usage()
         self._refused: set[str] = set()
         self._had: dict[str, deque[str]] = {}
-        loaded = {}
+        loaded: dict[str, MapSnapshot] = {}
+        segments = 0
         for head in store.heads():
             if not self.serves(head.name):
                 continue
             try:
-                layers, base = load_newest(store, head, cache)
+                newest, layers, base = load_newest(store, head.uid, cache)
+            except KeyError:
+                continue  # another service deleted it
             except (StoreError, MapFileError) as error:
                 logger.error("map %r is damaged and not served: %s", head.name, error)
                 self._damaged[head.name] = head
                 self._usage.add(head)
             else:
-                loaded[head.name] = MapSnapshot(
-                    head=head,
-                    layers=layers,
-                    base_sequence=base,
-                    frame_since=head.sequence,
-                    index=None,
-                )
-        self._models.want({snapshot.model_id for snapshot in loaded.values()})
+                snapshot = MapSnapshot(newest, layers, base, newest.sequence, index=None)
+                segments += len(snapshot)
+                if most_segments and segments > most_segments and len(snapshot):
+                    segments -= len(snapshot)
+                    self._cold[head.name] = ColdMap.of(snapshot)
+                else:
+                    loaded[head.name] = snapshot
+        self._models.want(
+            {each.model_id for each in loaded.values()}
+            | {each.model_id for each in self._cold.values()}
+        )
         # Published at once: a new dictionary for each map would take quadratic time.
         self._by_name = {
             name: replace(snapshot, index=self._index(snapshot.layers))
             for name, snapshot in loaded.items()
         }
-        for snapshot in self._by_name.values():
-            self._usage.add(snapshot.head, snapshot)
-            self._remember(snapshot)
+        for entry in self.entries():
+            self._usage.add(entry.head, entry)
+            self._remember(entry)
 
     def serves(self, name: str) -> bool:
         """Return whether this service loads the map of this name, if there is one."""
@@ -141,7 +163,7 @@ class MapRepository:
 
     def index_all(self) -> None:
         """Index the maps whose models have been loaded since."""
-        self._models.want({snapshot.model_id for snapshot in self.all()})
+        self._models.want({entry.model_id for entry in self.entries()})
         for name in self._by_name:
             with self.writing(name):
                 snapshot = self._by_name.get(name)
@@ -150,12 +172,15 @@ class MapRepository:
                     self.exchange(snapshot, replace(snapshot, index=index))
 
     def __len__(self) -> int:
-        return len(self._by_name)
+        return len(self._by_name) + len(self._cold)
 
     def take_refused(self) -> list[str]:
         """Return and forget the maps whose writes were refused for lack of space."""
         with self._committing:
-            refused, self._refused = sorted(self._refused & self._by_name.keys()), set()
+            refused, self._refused = (
+                sorted(self._refused & {each.name for each in self.entries()}),
+                set(),
+            )
         return refused
 
     @property
@@ -168,15 +193,22 @@ class MapRepository:
         return self.store.trouble()
 
     def all(self) -> list[MapSnapshot]:
-        """Return all maps, sorted by name."""
+        """Return all maps in memory, sorted by name; without a limit, all maps."""
         return sorted(self._by_name.values(), key=lambda snapshot: snapshot.name)
+
+    def entries(self) -> list[MapEntry]:
+        """Return all maps, in memory or not, sorted by name."""
+        # A map that is loaded meanwhile was cold before; one that is dropped is cold afterwards.
+        before, loaded = self._cold, self._by_name
+        found: dict[str, MapEntry] = {**before, **self._cold, **loaded}
+        return sorted(found.values(), key=lambda entry: entry.name)
 
     def damaged(self) -> list[str]:
         """Return the names of the maps that are stored but cannot be read."""
         return sorted(self._damaged)
 
-    def find(self, name: str) -> MapSnapshot | None:
-        """Return the map of this name; None if there is none.
+    def entry(self, name: str) -> MapEntry | None:
+        """Return the map of this name, in memory or not; None if there is none.
 
         Raises:
             Problem: 500 if the map is damaged; 404 if this service does not load it.
@@ -195,11 +227,77 @@ class MapRepository:
                 f"Map {name!r} is damaged on disk; the log has the reason. Restore the data "
                 "directory from a backup, or delete the map and upload it again.",
             )
-        return self._by_name.get(name)
+        return self.peek(name)
 
-    def peek(self, name: str) -> MapSnapshot | None:
-        """Return the map of this name, if it is served; raise nothing otherwise."""
-        return self._by_name.get(name)
+    def find(self, name: str) -> MapSnapshot | None:
+        """Return the map of this name, loaded if it is cold; None if there is none.
+
+        Raises:
+            Problem: 500 if the map is damaged; 404 if this service does not load it.
+            StoreError: the map is cold, and the store cannot be read.
+        """
+        found = self.entry(name)
+        if isinstance(found, ColdMap):
+            found = self._warmed(name)
+        if found is not None and self.most_segments:
+            self._used[name] = next(self._uses)
+        return found
+
+    def peek(self, name: str) -> MapEntry | None:
+        """Return the map of this name, if it is served; raise nothing and load nothing."""
+        # A map that is loaded meanwhile was cold before; one that is dropped is cold afterwards.
+        before, loaded = self._cold.get(name), self._by_name.get(name)
+        if loaded is not None:
+            return loaded
+        return before if before is not None else self._cold.get(name)
+
+    def check_fits(self, entries: Sequence[MapEntry]) -> None:
+        """Check that the maps of a request fit into the memory at once.
+
+        Raises:
+            Problem: 413 if they exceed the limit together. One map always fits.
+        """
+        segments = sum(map(len, entries))
+        if self.most_segments and segments > self.most_segments and len(entries) > 1:
+            raise Problem(
+                413,
+                "too-much-work",
+                f"The request searches {len(entries):,} maps with {segments:,} segments, and this "
+                f"service keeps {self.most_segments:,} segments in memory. Name fewer maps or "
+                "tags, or raise PLACECELL_LOADED_SEGMENTS.",
+            )
+
+    def _warmed(self, name: str) -> MapSnapshot | None:
+        """Load a cold map; None if it was deleted meanwhile."""
+        with self._guard:
+            lock = self._loads.setdefault(name, Lock())
+        with holding(lock):
+            while True:
+                cold = self.peek(name)
+                if not isinstance(cold, ColdMap):
+                    return cold
+                try:
+                    head, layers, base = load_newest(self.store, cold.head.uid, self._cache)
+                except KeyError:
+                    return None
+                except (StoreError, MapFileError) as error:
+                    if isinstance(error, StoreError) and error.kind != "damaged":
+                        raise
+                    logger.error("map %r is damaged and not served: %s", name, error)
+                    self.exchange_damaged(name, cold.head)
+                    self.entry(name)  # raises the problem of a damaged map
+                    return None
+                since = cold.frame_since if head.mark == cold.head.mark else head.sequence
+                snapshot = MapSnapshot(head, layers, base, since, self.indexed(layers, None))
+                if self.exchange(cold, snapshot):
+                    return snapshot
+
+    def named(self, name: str) -> MapEntry:
+        """Return the map of this name, in memory or not; 404 if there is none."""
+        entry = self.entry(name)
+        if entry is None:
+            raise unknown_map(name)
+        return entry
 
     def get(self, name: str) -> MapSnapshot:
         """Return the map of this name; 404 if there is none."""
@@ -317,14 +415,18 @@ class MapRepository:
                 head = self.store.free_ids(snapshot.head.uid, used.tolist(), snapshot.head.mark)
             except KeyError as error:
                 raise OutdatedError(snapshot.name) from error
-            self._publish(replace(self._by_name[snapshot.name], head=head))
+            self._publish(replace(self._by_name.get(snapshot.name, snapshot), head=head))
             return head
 
     def delete(self, name: str) -> None:
         """Remove a map, damaged or not; on return it is gone from the disk."""
         with self._committing:
-            snapshot = self._by_name.get(name)
-            head = self._damaged.get(name) or self.get(name).head
+            snapshot = self.peek(name)
+            head = self._damaged.get(name)
+            if head is None:
+                if snapshot is None:
+                    raise unknown_map(name)
+                head = snapshot.head
             try:
                 self.store.delete(head.uid, snapshot.head.mark if snapshot is not None else None)
             except KeyError as error:
@@ -355,6 +457,8 @@ class MapRepository:
                 except KeyError as error:
                     raise OutdatedError(head.name) from error
                 now = self._by_name.get(head.name)
+                if now is None and head.name in self._cold:
+                    now = snapshot  # it was dropped meanwhile
                 if now is None or kept.mark != now.head.mark:
                     return snapshot  # the follower loads what another service wrote
                 return self._publish(replace(now, head=kept))
@@ -383,7 +487,7 @@ class MapRepository:
         """Return whether the map is at a version, or was at it lately."""
         return tag in self._had.get(name, ())
 
-    def exchange(self, before: MapSnapshot | None, after: MapSnapshot | None) -> bool:
+    def exchange(self, before: MapEntry | None, after: MapEntry | None) -> bool:
         """Publish a state of a map without a write to the store; None: there is no map.
 
         Returns:
@@ -392,7 +496,7 @@ class MapRepository:
         known = after if after is not None else before
         assert known is not None  # nothing is exchanged for nothing
         with self._committing:
-            if self._by_name.get(known.name) is not before:
+            if self.peek(known.name) is not before:
                 return False
             self._drop_damaged(known.name)
             if after is not None:
@@ -405,7 +509,7 @@ class MapRepository:
         """Serve a map no more whose stored data cannot be read; None: the map was deleted."""
         with self._committing:
             self._drop_damaged(name)
-            before = self._by_name.get(name)
+            before = self.peek(name)
             if before is not None:
                 self._withdraw(before)
             if head is not None:
@@ -422,42 +526,78 @@ class MapRepository:
         kept = before.index if before is not None and layers.base is before.layers.base else None
         return self._index(layers, kept.base if kept is not None else None)
 
-    def _withdraw(self, snapshot: MapSnapshot) -> None:
+    def _withdraw(self, entry: MapEntry) -> None:
         """Serve a map no more, and forget which versions it had."""
-        name = snapshot.name
-        self._usage.remove(snapshot.head, snapshot)
-        self._by_name = {key: kept for key, kept in self._by_name.items() if key != name}
+        name = entry.name
+        self._usage.remove(entry.head, entry)
+        self._by_name = _without(self._by_name, name)
+        self._cold = _without(self._cold, name)
         self._had.pop(name, None)
+        self._used.pop(name, None)
 
     def _drop_damaged(self, name: str) -> None:
         head = self._damaged.get(name)
         if head is not None:
             self._usage.remove(head)
-            self._damaged = {key: kept for key, kept in self._damaged.items() if key != name}
+            self._damaged = _without(self._damaged, name)
 
-    def _publish(self, snapshot: MapSnapshot) -> MapSnapshot:
+    def _publish(self, entry: Entry) -> Entry:
         """Publish a map in a new dictionary, so that readers of the old one are undisturbed.
 
         `_committing` is held.
         """
-        before = self._by_name.get(snapshot.name)
+        name, before = entry.name, self.peek(entry.name)
         if before is not None:
             self._usage.remove(before.head, before)
-        self._usage.add(snapshot.head, snapshot)
-        self._by_name = self._by_name | {snapshot.name: snapshot}
-        self._remember(snapshot)
-        return snapshot
+        self._usage.add(entry.head, entry)
+        self._remember(entry)
+        if isinstance(entry, ColdMap):
+            self._cold = self._cold | {name: entry}
+            self._by_name = _without(self._by_name, name)
+            return entry
+        assert isinstance(entry, MapSnapshot)
+        self._by_name = self._by_name | {name: entry}
+        if name in self._cold:
+            self._cold = _without(self._cold, name)
+        if self.most_segments:
+            self._used[name] = next(self._uses)
+            self._drop_coldest(name)
+        return entry
 
-    def _remember(self, snapshot: MapSnapshot) -> None:
-        tags = self._had.setdefault(snapshot.name, deque(maxlen=KNOWN_VERSIONS))
-        if snapshot.tag not in tags:
-            tags.append(snapshot.tag)
+    def _drop_coldest(self, kept: str) -> None:
+        """Drop the maps that were used least recently, until the others are below the limit.
+
+        The map of the given name, and maps that are being written, stay.
+        """
+        left = sum(map(len, self._by_name.values()))
+        for name in sorted(self._by_name, key=lambda each: self._used.get(each, -1)):
+            if left <= self.most_segments:
+                return
+            snapshot, lock = self._by_name[name], self._locks.get(name)
+            if name == kept or not len(snapshot) or (lock is not None and lock.locked()):
+                continue
+            left -= len(snapshot)
+            self._cold = self._cold | {name: ColdMap.of(snapshot)}
+            self._by_name = _without(self._by_name, name)
+
+    def _remember(self, entry: MapEntry) -> None:
+        tags = self._had.setdefault(entry.name, deque(maxlen=KNOWN_VERSIONS))
+        if entry.tag not in tags:
+            tags.append(entry.tag)
 
     def _index(self, layers: MapLayers, base: MapIndex | None = None) -> LayeredIndex | None:
         model = self._models.find(layers.base.model_id)
         if model is None or layers.base.code_bytes != model.manifest.code_bytes:
             return None
         return LayeredIndex.of(layers, model.manifest.quantizer, base)
+
+
+Value = TypeVar("Value")
+
+
+def _without(values: dict[str, Value], name: str) -> dict[str, Value]:
+    """Return a copy of a dictionary without a key."""
+    return {key: value for key, value in values.items() if key != name}
 
 
 def runs_of(ids: UInt32) -> tuple[tuple[int, int], ...]:

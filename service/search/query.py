@@ -17,7 +17,7 @@ from service.inference.describer import Descriptors, PreparedScan
 from service.inference.model_registry import Model, Models
 from service.inference.scan import Scan
 from service.maps.repository import MapRepository
-from service.maps.snapshot import MapSnapshot
+from service.maps.snapshot import MapEntry, MapSnapshot
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class MapSelection:
     """
 
     searched: tuple[tuple[Model, tuple[MapSnapshot, ...]], ...]
-    skipped: tuple[MapSnapshot, ...]
+    skipped: tuple[MapEntry, ...]
 
     @property
     def maps(self) -> list[MapSnapshot]:
@@ -97,7 +97,7 @@ def select_maps(
     names: Sequence[str] | None,
     only: Model | None,
     principal: Principal,
-    wanted: Callable[[MapSnapshot], bool] = lambda _: True,
+    wanted: Callable[[MapEntry], bool] = lambda _: True,
 ) -> MapSelection:
     """Select the maps to search.
 
@@ -109,32 +109,42 @@ def select_maps(
         principal: principal.
         wanted: returns whether to search a map, such as by its tags.
 
+    Maps that are not in memory are loaded.
+
     Raises:
         Problem: 403 if a named map is outside the scope of the key, 404 if it does not exist, 409
-            if its model is not loaded or is not the model of the codes.
+            if its model is not loaded or is not the model of the codes, 413 if the maps do not fit
+            into the memory together.
     """
     if names is None:
-        chosen = [snapshot for snapshot in maps.all() if principal.covers(snapshot.name)]
+        chosen = [entry for entry in maps.entries() if principal.covers(entry.name)]
     else:
         for name in names:
             principal.check_map(name)
-        chosen = [maps.get(name) for name in sorted(set(names))]
-    chosen = [snapshot for snapshot in chosen if wanted(snapshot)]
+        chosen = [maps.named(name) for name in sorted(set(names))]
+    chosen = [entry for entry in chosen if wanted(entry)]
+    usable = [
+        entry
+        for entry in chosen
+        if (made_by := models.find(entry.model_id)) is not None and only in (None, made_by)
+    ]
+    maps.check_fits(usable)
+    loaded = {entry.name: maps.find(entry.name) for entry in usable}
     groups: dict[str, list[MapSnapshot]] = {}
     skipped = []
-    for snapshot in chosen:
-        made_by = snapshot.model_id
-        if snapshot.index is not None and only in (None, models.find(made_by)):
-            groups.setdefault(made_by, []).append(snapshot)
+    for entry in chosen:
+        snapshot = loaded.get(entry.name)
+        if snapshot is not None and snapshot.index is not None:
+            groups.setdefault(snapshot.model_id, []).append(snapshot)
         elif names is None:
-            skipped.append(snapshot)
+            skipped.append(entry)
         else:
-            usable = only.id if only is not None else ", ".join(each.id for each in models.all())
+            known = only.id if only is not None else ", ".join(each.id for each in models.all())
             raise Problem(
                 409,
                 "other-model",
-                f"Map {snapshot.name!r} was made by model {made_by!r}, but this request can use "
-                f"only {usable}.",
+                f"Map {entry.name!r} was made by model {entry.model_id!r}, but this request can "
+                f"use only {known}.",
             )
     searched = [(models.named(made_by), tuple(group)) for made_by, group in groups.items()]
     # Without a map to search, the segments are checked and described all the same.

@@ -104,7 +104,7 @@ async def merge(write: MapWriteOf) -> JSONResponse:
         asked = await state.run(_read, body, write.name, state, write.principal)
         # Before the work waits for a thread: the deadline may pass there.
         for each in asked.maps:
-            state.engine.maps.get(each)
+            state.engine.maps.named(each)
         state.engine.check_alignments([write.name, *asked.maps], MERGE_FEWER)
         merged = await write.run(
             state.engine.merge_maps,
@@ -146,7 +146,7 @@ def _read(content: bytes, name: str, state: State, principal: Principal) -> Merg
         if each in asked.maps[:index]:
             raise invalid_value(f"/maps/{index}", f"{each!r} is named twice. Name each map once.")
         principal.check_map(each)
-    if len(asked.maps) < 2 and state.engine.maps.find(name) is None:
+    if len(asked.maps) < 2 and state.engine.maps.entry(name) is None:
         raise invalid_value(
             "/maps", f"Map {name!r} does not exist yet; a new merged map needs two maps or more."
         )

@@ -205,7 +205,7 @@ def _listed(state: State, principal: Principal) -> bytes:
         model_id=state.model_id,
         maps=[
             summary_of(each, principal, state.engine.annotations.tags(each))
-            for each in state.engine.maps.all()
+            for each in state.engine.maps.entries()
             if principal.covers(each.name)
         ],
         damaged=[name for name in state.engine.maps.damaged() if principal.covers(name)],

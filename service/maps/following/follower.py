@@ -4,6 +4,7 @@ import logging
 import re
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from threading import Event, Lock, Thread
 from time import monotonic
 from weakref import WeakValueDictionary
@@ -13,6 +14,7 @@ from placecell_client import MapFileError
 from service.core.problems import Problem
 from service.maps.following.advance import newest
 from service.maps.repository import MapRepository
+from service.maps.snapshot import ColdMap, MapEntry, MapSnapshot
 from service.maps.store import SharedMap, SharedStore, StoreError
 
 POLL_SECONDS = 0.5
@@ -126,10 +128,6 @@ class Follower:
             not self._maps.serves(name) or self._has(name, tag) for name, tag in seen_versions(seen)
         )
 
-    def behind(self) -> Problem:
-        """Return the problem of a request whose versions could not be loaded in time."""
-        return _behind("", "")
-
     def catch_up_with(self, seen: str) -> None:
         """Load the versions that a client has seen, as the header `Placecell-Seen` names them.
 
@@ -199,7 +197,7 @@ class Follower:
     def _outdated(self, found: Collection[SharedMap]) -> list[str]:
         """Return the names of the maps whose state in memory differs."""
         served = {each.head.name: each for each in found if self._maps.serves(each.head.name)}
-        here = {each.name for each in self._maps.all()} | {*self._maps.damaged()}
+        here = {each.name for each in self._maps.entries()} | {*self._maps.damaged()}
         gone = here - served.keys()
         changed = {name for name, each in served.items() if not self._is_same(name, each)}
         return sorted(gone | changed)
@@ -257,13 +255,20 @@ class Follower:
     def _load(self, name: str, found: SharedMap) -> bool:
         """Load a map that differs; return False if it was changed meanwhile."""
         before = self._maps.peek(name)
+        if isinstance(before, ColdMap) and before.head.mark == found.head.mark:
+            # It has the same segments, so it stays where it is.
+            return self._maps.exchange(before, replace(before, head=found.head))
         if (before is not None and before.head == found.head) or (
             self._maps.damaged_head(name) == found.head
         ):
             return True
         try:
             with self._store.read(found.head.uid) as history:
-                after = newest(self._maps, history, before)
+                warm = before if isinstance(before, MapSnapshot) else None
+                found_now = newest(self._maps, history, warm)
+            after: MapEntry = found_now
+            if isinstance(before, ColdMap):
+                after = ColdMap.of(found_now)  # no request asked for it
         except KeyError:  # it was deleted meanwhile
             return False
         except (StoreError, MapFileError) as error:
@@ -289,6 +294,11 @@ def seen_versions(header: str) -> list[tuple[str, str]]:
             )
         found.append((match[1], match[2]))
     return found
+
+
+def behind() -> Problem:
+    """Return the problem of a request whose versions could not be loaded in time."""
+    return _behind("", "")
 
 
 def _behind(name: str, tag: str) -> Problem:

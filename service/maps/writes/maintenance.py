@@ -16,7 +16,7 @@ from service.core.memory import release
 from service.maps.cache import MapCache
 from service.maps.history import history_of, replay
 from service.maps.repository import MapRepository
-from service.maps.snapshot import MapSnapshot
+from service.maps.snapshot import MapEntry, MapSnapshot
 from service.maps.store import MapHead
 from service.maps.sync import MapSync
 from service.maps.writes.partial_uploads import PartialUploads
@@ -121,7 +121,7 @@ class Maintenance:
             self._sync.expire()
             if self._partial_uploads is not None:
                 self._partial_uploads.forget_old()
-            self._cache.keep_only({stored.head.uid for stored in self._maps.all()})
+            self._cache.keep_only({stored.head.uid for stored in self._maps.entries()})
             self._maps.store.release_space()
 
     def _work(self) -> None:
@@ -129,15 +129,15 @@ class Maintenance:
             self.run_once()
 
     def _maintain(self, name: str) -> None:
-        stored = self._maps.find(name)
-        if stored is not None and self._needs_flattening(stored):
+        stored = self._maps.peek(name)
+        if isinstance(stored, MapSnapshot) and self._needs_flattening(stored):
             head, content = stored.head, self._maps.flatten(stored)
             stored = None  # free the old layers before the file is made
             if content is not None:
                 self._cache.save(head, content)
             del content
             self._release()
-            stored = self._maps.find(name)
+            stored = self._maps.peek(name)
         if stored is not None and self._has_long_log(stored):
             self._compact(stored, self._log_bytes(stored.head))
 
@@ -148,13 +148,13 @@ class Maintenance:
     def _free_space(self) -> None:
         """Drop history if a write was refused for lack of space, or all maps are large together."""
         for name in self._maps.take_refused():
-            stored = self._maps.find(name)
+            stored = self._maps.peek(name)
             if stored is not None and stored.head.commits:
                 self._compact(stored, stored.head.log_bytes)
         enough = ALL_SHARE * self._bounds.all_bytes
         if self._maps.stored_bytes <= enough:
             return
-        for stored in sorted(self._maps.all(), key=lambda stored: -stored.head.log_bytes):
+        for stored in sorted(self._maps.entries(), key=lambda stored: -stored.head.log_bytes):
             head = stored.head
             # Compaction writes the oldest version anew, which does not pay for a few bytes.
             if self._maps.stored_bytes <= enough or head.log_bytes <= WORTH * head.base_bytes:
@@ -168,7 +168,7 @@ class Maintenance:
         above = max(len(layers.recent), layers.gone_count)
         return above > most or stored.head.sequence - stored.base_sequence > bounds.commits
 
-    def _has_long_log(self, stored: MapSnapshot) -> bool:
+    def _has_long_log(self, stored: MapEntry) -> bool:
         head, bounds = stored.head, self._bounds
         return head.log_bytes > self._log_bytes(head) or head.commits > bounds.log_commits
 
@@ -176,7 +176,7 @@ class Maintenance:
         wanted = max(self._bounds.log_bytes, self._bounds.log_share * head.base_bytes)
         return min(wanted, max(0, self._bounds.map_bytes - head.base_bytes) / 2)
 
-    def _compact(self, stored: MapSnapshot, most: float) -> None:
+    def _compact(self, stored: MapEntry, most: float) -> None:
         """Drop old versions until half of the allowed bytes are left, so that it lasts a while.
 
         Of several services with one database, one does so.
@@ -185,7 +185,7 @@ class Maintenance:
             if is_own:
                 self._compact_alone(stored, most)
 
-    def _compact_alone(self, stored: MapSnapshot, most: float) -> None:
+    def _compact_alone(self, stored: MapEntry, most: float) -> None:
         with history_of(self._maps.store, stored) as history:
             head = history.head
             left = most / 2

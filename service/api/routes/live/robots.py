@@ -41,7 +41,7 @@ async def report_robot(
         pose = None
         if asked.map is not None and asked.position is not None:
             principal.check_map(asked.map)
-            if state.engine.maps.find(asked.map) is None:
+            if state.engine.maps.entry(asked.map) is None:
                 detail = f"No map is named {asked.map!r:.80}. GET /maps lists the maps."
                 raise invalid_value("/map", detail)
             rows = asked.covariance

@@ -281,6 +281,23 @@ def test_service_loads_the_maps_of_its_patterns_only(replica: Start, manifest: M
     assert [each["name"] for each in third.get("/maps").json()["maps"]] == ["hall"]
 
 
+def test_cold_map_is_followed_and_stays_cold(replica: Start, manifest: Manifest) -> None:
+    one, other = replica("a"), replica("b", loaded_segments=15)
+    put(one, manifest, "hall")
+    put(one, manifest)
+    entries = other.app.state.placecell.engine.maps.entries
+    eventually(lambda: len(entries()) == 2)
+    assert other.get("/maps/hall").is_success
+    version = tag(edit(one, manifest, 10))
+    one.post("/maps/yard/ids", params={"count": 7})
+    eventually(lambda: [each["etag"] for each in other.get("/maps").json()["maps"]][1] == version)
+    assert [type(each).__name__ for each in entries()] == ["MapSnapshot", "ColdMap"]
+    assert matched(other, 12, {"Placecell-Seen": f"yard {version}"}) == [112]
+    assert other.get("/maps/hall").is_success
+    assert one.delete("/maps/yard").status_code == 204
+    eventually(lambda: etag_at(other) is None)
+
+
 def test_maps_are_served_while_the_database_is_away(
     replica: Start,
     manifest: Manifest,
