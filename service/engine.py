@@ -182,13 +182,7 @@ class Engine:
             )
             opened.enter_context(maintenance.running())
             self._open_parts = opened.pop_all()
-        metrics.maps.set_function(lambda: len(self.maps))
-        metrics.loaded_maps.set_function(lambda: len(self.maps.all()))
-        metrics.robots.set_function(lambda: len(self.robots))
-        metrics.event_clients.set_function(lambda: len(self.events))
-        for name in get_args(CalibrationState):
-            metrics.calibrated.labels(name).set_function(partial(self._maps_with, name))
-        metrics.map_segments.set_function(lambda: sum(len(each) for each in self.maps.entries()))
+        self._fill(metrics)
 
     @classmethod
     def open(
@@ -272,6 +266,16 @@ class Engine:
         """Return problems that an operator should solve although the engine works."""
         warning = None if self.follower is None else self.follower.warning()
         return [] if warning is None else [warning]
+
+    def _fill(self, metrics: Metrics) -> None:
+        """Give the gauges of maps, robots and events their values."""
+        metrics.maps.set_function(lambda: len(self.maps))
+        metrics.loaded_maps.set_function(lambda: len(self.maps.all()))
+        metrics.robots.set_function(lambda: len(self.robots))
+        metrics.event_clients.set_function(lambda: len(self.events))
+        for name in get_args(CalibrationState):
+            metrics.calibrated.labels(name).set_function(partial(self._maps_with, name))
+        metrics.map_segments.set_function(lambda: sum(len(each) for each in self.maps.entries()))
 
     def _maps_with(self, state: CalibrationState) -> int:
         """Return the number of maps whose latest calibration has this state."""

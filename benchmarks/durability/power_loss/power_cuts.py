@@ -195,7 +195,8 @@ def read_maps_left(files: Mapping[str, bytes], root: Path, folder: Path) -> Outl
                 with store.read(head.uid) as history:
                     commits = history.commits()
                 tags = tuple((each.sequence, tag_of(each.sequence, each.mark)) for each in commits)
-                file = encode(load_newest(store, head, cache)[0].content())
+                _, layers, _ = load_newest(store, head.uid, cache)
+                file = encode(layers.content())
                 maps.append((head.name, tags, hashlib.sha256(file).hexdigest()))
             if wrong := store.verify():
                 return "; ".join(wrong)
