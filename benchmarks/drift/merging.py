@@ -17,7 +17,7 @@ from service.engine import Engine
 from service.inference.describer import Descriptors
 from service.merging.bending import bent_content, graph_of, robots_of_captures
 
-EVERY = 20.0
+EVERY = 10.0
 """Way between two captures that are localized, meters."""
 
 REACH = 4.9
@@ -111,7 +111,7 @@ def localized(content: CompactMap, true: Float64, engine: Engine) -> tuple[int, 
 
 
 def _queries(graph: GraphMap, captures: Int64) -> Int64:
-    """Return one capture for each 20 m of way."""
+    """Return one capture for each 10 m of way."""
     ways = graph.frames.ways[captures]
     order = np.argsort(ways, kind="stable")
     _, first = np.unique(np.floor(ways[order] / EVERY), return_index=True)

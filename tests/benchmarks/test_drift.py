@@ -69,7 +69,7 @@ def test_maps_are_merged_and_localized_in(model: Path) -> None:
         assert all(engine.maps.find(name) is None for name in ("drift-0", "drift-1"))
     assert row["merged_maps"] == 2
     assert row["merged_within_0_3_m"] > 0.5
-    assert row["localized_queries"] == 48
+    assert row["localized_queries"] == 96
     assert row["localized_merged_wrong"] == row["localized_undrifted_wrong"] == 0
     assert row["localized_merged"] >= row["localized_undrifted"] - 0.1
 
