@@ -171,10 +171,14 @@ class AsyncClient(BaseClient):
         k: int = 10,
         rerank: bool = True,
         tags: Sequence[str] | None = None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> Matches:
         """See `Client.match`."""
         return await self._send(
-            self._calls.match(description, segments, sensors, maps, k, rerank, tags)
+            self._calls.match(
+                description, segments, sensors, maps, k, rerank, tags, classes, ignore
+            )
         )
 
     async def localize(
@@ -191,6 +195,8 @@ class AsyncClient(BaseClient):
         hints: Hints | None = None,
         robot: str | None = None,
         tags: Sequence[str] | None = None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> Localizations:
         """See `Client.localize`."""
         return await self._send(
@@ -206,6 +212,8 @@ class AsyncClient(BaseClient):
                 hints,
                 robot,
                 tags,
+                classes,
+                ignore,
             )
         )
 

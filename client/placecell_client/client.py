@@ -264,6 +264,8 @@ class Client(BaseClient):
         k: int = 10,
         rerank: bool = True,
         tags: Sequence[str] | None = None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> Matches:
         """Find the k nearest map segments of each query segment.
 
@@ -280,6 +282,10 @@ class Client(BaseClient):
                 (NaN) is not re-ranked, and a service that is older than this option does not
                 re-rank.
             tags: Search only maps that have all of these tags.
+            classes: Search only map segments of these classes (`placecell_client.classes.CLASSES`).
+                Segments of the request that have another class are left out.
+            ignore: Leave out segments of these classes, in the maps and in the request; `movable`
+                names vehicle and person. A segment of unknown class is never left out.
 
         Returns:
             Candidates of each query, best first.
@@ -287,7 +293,11 @@ class Client(BaseClient):
         Raises:
             ValueError: Neither or both kinds of query are given, or an array is invalid.
         """
-        return self._send(self._calls.match(description, segments, sensors, maps, k, rerank, tags))
+        return self._send(
+            self._calls.match(
+                description, segments, sensors, maps, k, rerank, tags, classes, ignore
+            )
+        )
 
     def localize(
         self,
@@ -303,6 +313,8 @@ class Client(BaseClient):
         hints: Hints | None = None,
         robot: str | None = None,
         tags: Sequence[str] | None = None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> Localizations:
         """Localize the robot: compute the pose of its frame in each map.
 
@@ -326,6 +338,10 @@ class Client(BaseClient):
                 returned; no hint makes a pose more probable. The result's `hints` tells the effect.
             robot: Name of the robot. `robots` then shows its pose.
             tags: Search only maps that have all of these tags.
+            classes: Search only map segments of these classes (`placecell_client.classes.CLASSES`).
+                Segments of the request that have another class are left out.
+            ignore: Leave out segments of these classes, in the maps and in the request; `movable`
+                names vehicle and person. A segment of unknown class is never left out.
 
         Returns:
             One result per map, most probable first: the pose with its covariance and probability,
@@ -347,6 +363,8 @@ class Client(BaseClient):
                 hints,
                 robot,
                 tags,
+                classes,
+                ignore,
             )
         )
 

@@ -10,11 +10,12 @@ from placecell_client.maps.follow import followed
 from scipy.spatial.transform import Rotation
 
 from placecell.core.cancellation import current
+from placecell.core.segment_classes import most_probable
 from placecell.core.types import Int64, UInt32
 from placecell.localization import Pose
 from placecell.localization.registration import register
 from placecell.map_alignment import AlignmentParameters
-from service.maps.layers import MapLayers
+from service.maps.layers import MapLayers, classes_of
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import IDS, OutOfIdsError
 from service.maps.writes.deduplication import NONE, RADIUS, SameView, count_elsewhere, deduplicate
@@ -249,7 +250,7 @@ def replaced(
 
 
 def seen_since(placed: CompactMap, target: CompactMap, rows: Int64, places: Int64) -> CompactMap:
-    """Return segments of the merged map that the part saw later, with that time.
+    """Return segments of the merged map that the part saw later, or whose class it knows better.
 
     Args:
         placed: the part's content in the merged map's frame.
@@ -260,7 +261,13 @@ def seen_since(placed: CompactMap, target: CompactMap, rows: Int64, places: Int6
     filled = with_optional(target, ["seen"])
     seen = last_seen(filled)
     np.maximum.at(seen, places, last_seen(with_optional(placed, ["seen"]))[rows])
-    return take(replace(filled, seen=seen), seen > last_seen(filled))
+    later = seen > last_seen(filled)
+    if target.classes is not None or placed.classes is not None:
+        classes = classes_of(target).copy()
+        classes[places] = most_probable(classes[places], classes_of(placed)[rows])
+        later |= classes != classes_of(target)
+        filled = replace(filled, classes=classes)
+    return take(replace(filled, seen=seen), later)
 
 
 def last_seen(content: CompactMap) -> UInt32:

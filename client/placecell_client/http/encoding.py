@@ -8,6 +8,7 @@ import msgpack  # type: ignore[import-untyped]
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from placecell_client.classes import class_names, class_probabilities
 from placecell_client.http.point_clouds import Clouds, rows_of
 
 Encoding = Literal["msgpack", "json"]
@@ -89,6 +90,18 @@ def codes_of(codes: ArrayLike, encoding: Encoding) -> list[list[int]] | bytes:
         return np.ascontiguousarray(array, dtype=np.int8).tobytes()
     rows: list[list[int]] = array.tolist()
     return rows
+
+
+def classes_of(classes: NDArray[np.uint8], encoding: Encoding) -> Any:
+    """Return classes for a body: bytes, or names with probabilities; None for unknown."""
+    if encoding == "msgpack":
+        return classes.tobytes()
+    return [
+        None if name is None else {"name": name, "probability": probability}
+        for name, probability in zip(
+            class_names(classes), class_probabilities(classes).tolist(), strict=True
+        )
+    ]
 
 
 def centroids_of(centroids: ArrayLike, encoding: Encoding) -> list[list[float]] | bytes:

@@ -18,6 +18,7 @@ from placecell_client.http.encoding import (
     MEDIA_TYPES,
     Encoding,
     centroids_of,
+    classes_of,
     codes_of,
     dumps,
     segments_of,
@@ -190,12 +191,16 @@ class Calls:
         k: int,
         rerank: bool,
         tags: Sequence[str] | None = None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> Call[Matches]:
         """Build `POST /match`."""
-        body = _search(maps, k, tags)
+        wanted = _filter(classes, ignore)
+        body = _search(maps, k, tags) | wanted
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows)
+            body |= self._classes(description, rows) if wanted else {}
             added = (
                 self._centroids(description, rows)
                 if rerank and _has_centroids(description, rows)
@@ -226,9 +231,12 @@ class Calls:
         hints: Hints | None = None,
         robot: str | None = None,
         tags: Sequence[str] | None = None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> Call[Localizations]:
         """Build `POST /localize`."""
-        body = _search(maps, k, tags) | {"motion": motion}
+        wanted = _filter(classes, ignore)
+        body = _search(maps, k, tags) | wanted | {"motion": motion}
         if session is not None:
             body["session"] = session
         if hints is not None:  # older services have no such fields
@@ -240,6 +248,7 @@ class Calls:
         if description is not None and segments is None and sensors is None:
             rows = _usable(description)
             body |= self._codes(description, rows) | self._centroids(description, rows)
+            body |= self._classes(description, rows) if wanted else {}
             call = self._post(
                 "/localize",
                 body,
@@ -615,6 +624,12 @@ class Calls:
         codes = codes_of(description.codes[rows], self.encoding)
         return {"model_id": description.model_id, "codes": codes}
 
+    def _classes(self, description: Description, rows: list[int]) -> dict[str, Any]:
+        """Return the part of a body that holds the classes of codes, if they are known."""
+        if description.classes is None:
+            return {}
+        return {"query_classes": classes_of(description.classes[rows], self.encoding)}
+
     def _centroids(self, description: Description, rows: list[int]) -> dict[str, Any]:
         """Return the part of a body that holds the centroids of codes."""
         return {"centroids": centroids_of(description.centroids[rows], self.encoding)}
@@ -653,6 +668,16 @@ def _search(
     names = {} if maps is None else {"maps": list(maps)}
     # Older services have no tags.
     return {"k": k} | names | ({} if tags is None else {"tags": list(tags)})
+
+
+def _filter(classes: Sequence[str] | None, ignore: str | Sequence[str] | None) -> dict[str, Any]:
+    """Return the part of a body that filters segments by class; older services have no such."""
+    wanted: dict[str, Any] = {}
+    if classes is not None:
+        wanted["classes"] = [classes] if isinstance(classes, str) else list(classes)
+    if ignore is not None:
+        wanted["ignore"] = [ignore] if isinstance(ignore, str) else list(ignore)
+    return wanted
 
 
 def _has_centroids(description: Description, rows: list[int]) -> bool:

@@ -137,6 +137,7 @@ class MapSummary:
         sources: Number of segments that were merged from each map. Empty if the service is older
             than this field.
         tags: Tags of the map, sorted. Empty if the service is older than this field.
+        classes: Number of segments of each class, and `unknown`. Empty if the map has no classes.
     """
 
     name: str
@@ -151,6 +152,7 @@ class MapSummary:
     optional: tuple[str, ...]
     sources: dict[str, int] = field(default_factory=dict)
     tags: tuple[str, ...] = ()
+    classes: dict[str, int] = field(default_factory=dict)
 
     @classmethod
     def of(cls, content: dict[str, Any]) -> "MapSummary":
@@ -169,6 +171,7 @@ class MapSummary:
             optional=tuple(content["optional"]),
             sources=dict(content.get("sources", {})),  # older services have no such fields
             tags=tuple(content.get("tags", ())),
+            classes=dict(content.get("classes", {})),
         )
 
 

@@ -32,6 +32,10 @@ class MapOut(BaseModel):
     )
     optional: list[str] = Field(description="Names of the optional columns in the map.")
     tags: list[str] = Field(description="Tags of the map, sorted.")
+    classes: dict[str, int] = Field(
+        description="Number of segments of each class, and `unknown`; empty if the map has no "
+        "classes."
+    )
 
 
 class CalibrationOut(BaseModel):

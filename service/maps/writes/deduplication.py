@@ -18,9 +18,11 @@ from placecell_client.maps.edit import apply, take, with_optional
 from placecell.core.cancellation import current, is_cancelled
 from placecell.core.grid_cells import neighboring
 from placecell.core.jit import compiled
-from placecell.core.types import Bool, Float64, Int8, Int32, Int64, UInt32
+from placecell.core.segment_classes import STEPS, UNKNOWN, most_probable
+from placecell.core.types import Bool, Float64, Int8, Int32, Int64, UInt8, UInt32
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.quantizer import Quantizer
+from service.maps.layers import classes_of
 
 RADIUS = 0.5
 """Largest distance in meters between centroids of views of one object. In `muehlburger_tor`, 85% of
@@ -115,6 +117,9 @@ def deduplicate(
         Cancelled: the deadline passed, or the client disconnected.
     """
     stored, given = _filled(stored), _filled(upload)
+    has_classes = stored.classes is not None or given.classes is not None
+    if has_classes:
+        stored, given = (with_optional(each, ["classes"]) for each in (stored, given))
     # A segment that replaces one is handled in order of time as well, so that a repeated upload
     # has the same result.
     stays = ~np.isin(stored.ids, given.ids)
@@ -133,6 +138,7 @@ def deduplicate(
     centroids = np.concatenate([each.centroids for each in both])
     numbers, around = neighboring(centroids, radius)
     is_kept = np.arange(len(seen)) < len(known)
+    classes = np.concatenate([classes_of(each) for each in both])
     times = np.concatenate([_times_of(each) for each in both])
     token = current()
     _compare(
@@ -153,6 +159,7 @@ def deduplicate(
         objects,
         count,
         seen,
+        classes,
         is_kept,
     )
     token.check()
@@ -160,6 +167,10 @@ def deduplicate(
 
     of_known, of_given = slice(len(known)), slice(len(known), None)
     again = seen[of_known] > _column(known, "seen")
+    if has_classes:
+        again |= classes[of_known] != classes_of(known)
+        known = replace(known, classes=classes[of_known])
+        given = replace(given, classes=classes[of_given])
     refreshed = take(replace(known, seen=seen[of_known]), again)
     kept = take(replace(given, seen=seen[of_given], views=views_of[of_given]), is_kept[of_given])
     changed = apply(refreshed, Delta(canonical(kept), NONE))
@@ -194,6 +205,9 @@ def _as_views_of(given: CompactMap, stored: CompactMap) -> tuple[CompactMap, Boo
     views = np.where(replaces, _column(stored, "views")[rows], _column(given, "views"))
     latest = np.maximum(_column(stored, "seen")[rows], _column(given, "seen"))
     seen = np.where(replaces, latest, _column(given, "seen"))
+    if given.classes is not None and stored.classes is not None:
+        likeliest = most_probable(stored.classes[rows], given.classes)
+        given = replace(given, classes=np.where(replaces, likeliest, given.classes))
     return replace(given, views=views, seen=seen), replaces
 
 
@@ -235,6 +249,7 @@ def _compare(
     objects: Int64,
     count: Int64,
     seen: UInt32,
+    classes: UInt8,
     is_kept: Bool,
 ) -> None:
     """Decide for each given segment, in order, whether it is kept.
@@ -249,7 +264,8 @@ def _compare(
         robots: robot of each row, by number.
         limits: radius, steps of the same look, meters of the same viewpoint, views of an object.
         most: largest numbers of rows compared and visited.
-        objects, count, seen, is_kept: are filled; `count` by object.
+        objects, count, seen, classes, is_kept: are filled; `count` by object. A segment takes the
+            class of a repeat that is more probable than its own.
     """
     radius, steps, same_viewpoint, views = limits
     first_given = len(is_compared)
@@ -286,6 +302,7 @@ def _compare(
                     # A robot confirms another robot's segment only for its own time of capture.
                     when = min(when, captured[row])
                 seen[nearest] = max(seen[nearest], when)
+                classes[nearest] = _likelier(classes[nearest], classes[row])
                 continue
             objects[row] = object_
         is_kept[row] = True
@@ -293,6 +310,14 @@ def _compare(
         if itself:
             following[row] = heads[numbers[row]]
             heads[numbers[row]] = row
+
+
+@compiled
+def _likelier(one: int, other: int) -> int:
+    """Return the more probable of two classes; of equals, the first. See `most_probable`."""
+    if UNKNOWN in (one, other):
+        return max(one, other)
+    return other if (other - 1) % (STEPS + 1) > (one - 1) % (STEPS + 1) else one
 
 
 @compiled

@@ -412,3 +412,39 @@ def test_A1_comparison_stops_when_cancelled() -> None:
         token.cancel()
         with pytest.raises(Cancelled):
             deduplicate(upload, take(upload, slice(0)), SameView(Quantizer(0.01), 1.0))
+
+
+def classed(content: CompactMap, *classes: int) -> CompactMap:
+    return replace(content, classes=np.array(classes, np.uint8))
+
+
+def test_repeat_gives_its_class_if_that_is_more_probable() -> None:
+    stored = classed(seen_at(0, [1, 2, 3], [0, 10, 20], [0, 50, 100]), 100, 0, 121)
+    again = classed(seen_at(0, [7, 8, 9], [0, 10, 20], [0, 50, 100], stand=1), 31, 40, 5)
+    found = look(again, stored)
+    # Building with 1.0 before vehicle with 0.2; a known class before unknown; 0.9 stays.
+    assert found.repeats == 3
+    assert found.changed.ids.tolist() == [1, 2]
+    assert found.changed.classes is not None
+    assert found.changed.classes.tolist() == [31, 40]
+    # The same upload again changes nothing.
+    after = apply(stored, Delta(found.changed, NONE))
+    assert not len(look(again, after).changed)
+
+
+def test_upload_without_classes_keeps_those_of_the_map() -> None:
+    stored = classed(seen_at(0, [1], [0], [0]), 121)
+    found = look(seen_at(0, [7, 8], [0, 30], [0, 50], stand=1), stored)
+    after = apply(stored, Delta(found.changed, NONE))
+    assert after.classes is not None
+    assert (after.ids.tolist(), after.classes.tolist()) == ([1, 8], [121, 0])
+    assert (
+        look(seen_at(0, [7], [0], [0], stand=1), seen_at(0, [1], [0], [0])).changed.classes is None
+    )
+
+
+def test_replaced_segment_keeps_the_more_probable_class() -> None:
+    stored = classed(seen_at(0, [1], [0], [0]), 121)
+    found = look(classed(seen_at(9, [1], [0], [0]), 33), stored)
+    assert found.changed.classes is not None
+    assert found.changed.classes.tolist() == [121]

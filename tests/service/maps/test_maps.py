@@ -58,6 +58,7 @@ def test_put_get_list_delete(service: Any, yard: bytes, manifest: Manifest) -> N
         "sources": {},
         "time_span": [1.7e9, 1.7e9],
         "optional": [],
+        "classes": {},
         "tags": [],
     }
     assert response.json() == summary
