@@ -64,7 +64,7 @@ def summary_of(snapshot: MapEntry, principal: Principal, tags: Sequence[str]) ->
         time_span=summary.time_span,
         optional=[*summary.optional],
         tags=[*tags],
-        classes=layers.class_counts,
+        classes=summary.classes,
     )
 
 

@@ -26,6 +26,7 @@ class MapSummary:
         sources: number of segments that were merged from each map, as far as that is known.
         time_span: earliest and latest time of the segments' frames, seconds; None without segments.
         optional: names of the optional columns.
+        classes: number of segments of each class, and `unknown`; empty without classes.
     """
 
     segments: int
@@ -35,6 +36,7 @@ class MapSummary:
     sources: Counter[str]
     time_span: tuple[float, float] | None
     optional: tuple[str, ...]
+    classes: dict[str, int]
 
     @classmethod
     def of(cls, layers: MapLayers) -> "MapSummary":
@@ -47,6 +49,7 @@ class MapSummary:
             sources=layers.sources,
             time_span=layers.time_span,
             optional=tuple(sorted(layers.optional)),
+            classes=layers.class_counts,
         )
 
 
