@@ -39,8 +39,14 @@ GXX = ["g++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Wconversion", "-Wshadow
 ECHO = """
 #include <iostream>
 #include <iterator>
-#include "placecell/value.hpp"
+#include "placecell.hpp"
 int main(int, char** arguments) try {
+  if (std::string(arguments[1]) == "seen") {
+    const placecell::Client client(arguments[2]);
+    for (const char* map : {"yard", "hall"}) client.get_map_file(map);
+    client.info();
+    return 0;
+  }
   const std::string data(std::istreambuf_iterator<char>(std::cin), {});
   const bool is_json = std::string(arguments[1]) == "json";
   std::cout << placecell::to_msgpack(is_json ? placecell::from_json(data)
@@ -86,7 +92,7 @@ def program(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 
 @pytest.fixture(scope="module")
 def echo(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A program that reads JSON or msgpack and writes msgpack."""
+    """A program that reads JSON or msgpack and writes msgpack, or downloads two maps."""
     folder = tmp_path_factory.mktemp("echo")
     (folder / "echo.cpp").write_text(ECHO)
     return build(folder, folder / "echo.cpp")
@@ -335,6 +341,17 @@ def test_error_page_of_a_proxy_is_shown(
     done = run(program, "describe", url, scan_file)
     assert done.returncode == 1
     assert done.stderr == "502 Error of another server: <h1>Bad gateway</h1>\n"
+
+
+def test_later_requests_name_the_versions_of_downloaded_maps(
+    echo: Path, answer: tuple[str, Answer]
+) -> None:
+    url, given = answer
+    given.headers, given.body = {"ETag": '"0123456789abcdef-3"'}, b"{}"
+    assert run(echo, "seen", url).returncode == 0
+    seen = [headers.get("placecell-seen") for _, headers, _ in given.requests]
+    yard, hall = 'yard "0123456789abcdef-3"', 'hall "0123456789abcdef-3"'
+    assert seen == [None, yard, f"{hall}, {yard}"]
 
 
 def test_chunked_answers_are_joined(

@@ -15,6 +15,8 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -177,7 +179,10 @@ class Client {
 
   // Download a map as a file.
   std::string get_map_file(const std::string& name) const {
-    return call("GET", "/maps/" + name).body;
+    HttpAnswer answer = call("GET", "/maps/" + name);
+    if (const auto tag = answer.headers.find("etag"); tag != answer.headers.end())
+      seen_->note(name, tag->second);
+    return std::move(answer.body);
   }
 
   // Download a map and decode it.
@@ -197,6 +202,8 @@ class Client {
       request.headers["Accept"] = "application/msgpack";
     }
     request.body = std::move(body);
+    const std::string seen = seen_->header();
+    if (!seen.empty()) request.headers["Placecell-Seen"] = seen;
     HttpAnswer answer = send(request);
     if (answer.status < 200 || answer.status > 299) throw error_of(answer);
     return answer;
@@ -302,8 +309,29 @@ class Client {
     return result;
   }
 
+  // Versions of the last downloaded maps. With them, no replica answers by an older version.
+  class Seen {
+   public:
+    void note(const std::string& map, const std::string& tag) {
+      const std::lock_guard<std::mutex> held(lock_);
+      if (tags_.size() >= 16 && tags_.count(map) == 0) tags_.erase(tags_.begin());
+      tags_[map] = tag;
+    }
+    std::string header() const {
+      const std::lock_guard<std::mutex> held(lock_);
+      std::string text;
+      for (const auto& [map, tag] : tags_) text += (text.empty() ? "" : ", ") + map + " " + tag;
+      return text;
+    }
+
+   private:
+    mutable std::mutex lock_;
+    std::map<std::string, std::string> tags_;
+  };
+
   std::string base_;
   ClientOptions options_;
+  std::shared_ptr<Seen> seen_ = std::make_shared<Seen>();
 };
 
 }  // namespace placecell
