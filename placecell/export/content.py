@@ -5,11 +5,29 @@ from pathlib import Path
 
 import numpy as np
 
+from placecell.core.segment_classes import class_indices
 from placecell.core.types import Float64, Int64, UInt8
 from placecell.segmentation.recording import Recording
 
 GOLDEN = 0.618033988749895
 """Step of the hues of colors: the golden ratio keeps those of neighboring numbers apart."""
+
+
+CLASS_COLORS = np.array(
+    [
+        (70, 110, 200),  # building
+        (60, 160, 70),  # vegetation
+        (150, 95, 50),  # pole
+        (225, 60, 55),  # vehicle
+        (240, 130, 200),  # person
+        (200, 180, 90),  # fence
+        (245, 215, 40),  # sign
+        (120, 200, 210),  # other
+        (140, 140, 140),  # unknown, the last one: index -1
+    ],
+    np.uint8,
+)
+"""Colors of the classes, in their order."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,6 +47,7 @@ class ExportContent:
         poses: pose of the sensor at each capture, float64 (captures, 4, 4).
         stamps: time of each capture, float64 (captures,), seconds.
         remarks: what the file does not tell, for the user.
+        classes: class of each segment, uint8 (segments,); None if it is not known.
     """
 
     frame: str
@@ -43,6 +62,7 @@ class ExportContent:
     poses: Float64
     stamps: Float64
     remarks: tuple[str, ...] = ()
+    classes: UInt8 | None = None
 
 
 def read_recording(file: Path) -> ExportContent:
@@ -78,6 +98,11 @@ def of_recording(recording: Recording) -> ExportContent:
             "identity, and times are the numbers of the scans",
         ),
     )
+
+
+def class_colors(classes: UInt8) -> UInt8:
+    """Return the color of each class, uint8 (n, 3); gray for unknown."""
+    return CLASS_COLORS[class_indices(classes)]
 
 
 def colors(numbers: Int64) -> UInt8:

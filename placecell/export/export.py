@@ -8,7 +8,7 @@ import numpy as np
 from placecell.core.files import written_whole
 from placecell.core.geodesy import GeoAnchor
 from placecell.export.clouds import write_las, write_pcd, write_ply
-from placecell.export.content import ExportContent, colors, read_recording
+from placecell.export.content import ExportContent, class_colors, colors, read_recording
 from placecell.export.geo import write_geojson
 from placecell.export.mcap_file import write_mcap
 from placecell.export.poses import write_g2o, write_tum
@@ -75,8 +75,12 @@ def write_content(
     Raises:
         ValueError: a segment is too far from the anchor.
     """
-    numbers = {"id": content.ids, "robot": content.robot, "group": content.groups}[color]
-    shades = colors(np.asarray(numbers))
+    if color == "class":
+        known = content.classes
+        shades = class_colors(np.zeros(len(content.ids), np.uint8) if known is None else known)
+    else:
+        numbers = {"id": content.ids, "robot": content.robot, "group": content.groups}[color]
+        shades = colors(np.asarray(numbers))
     if target == "geojson":
         assert anchor is not None
         write_geojson(content, shades, file, anchor)

@@ -3,4 +3,4 @@
 from typing import Literal
 
 Target = Literal["ply", "las", "pcd", "mcap", "geojson", "tum", "g2o"]
-ColorBy = Literal["id", "robot", "group"]
+ColorBy = Literal["id", "robot", "group", "class"]

@@ -62,6 +62,7 @@ def content_of_map(found: CompactMap) -> ExportContent:
         poses=poses[order],
         stamps=found.frame_times[order],
         remarks=("a map file has no points of segments: each segment is one point, its centroid",),
+        classes=found.classes,
     )
 
 

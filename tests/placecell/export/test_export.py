@@ -1,6 +1,7 @@
 """Exports, each read back by an independent reader."""
 
 import json
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, get_args
@@ -20,7 +21,7 @@ from placecell.core.geodesy import GeoAnchor, to_geodetic
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
 from placecell.export import mcap_file
-from placecell.export.content import colors
+from placecell.export.content import class_colors, colors
 from placecell.export.export import export as write
 from placecell.export.geo import parse_anchor
 from placecell.export.targets import Target
@@ -241,3 +242,18 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
     for name in ("a.map", "a.safetensors", "none"):
         with pytest.raises(ValueError, match="recording"):
             read_content(tmp_path / name)
+
+
+def test_map_is_colored_by_class(map_file: tuple[Path, CompactMap], tmp_path: Path) -> None:
+    path, town = map_file
+    classes = np.zeros(len(town), np.uint8)
+    classes[:2] = 1, 121
+    known = tmp_path / "known.map"
+    known.write_bytes(encode(replace(town, classes=classes)))
+    for file, expected in ((known, class_colors(classes)), (path, class_colors(0 * classes))):
+        export(file, "ply", tmp_path / "a.ply", "class")
+        _, table = read_ply(tmp_path / "a.ply")
+        shades = np.stack([table[c] for c in ("red", "green", "blue")], 1)
+        np.testing.assert_array_equal(shades, expected)
+        (tmp_path / "a.ply").unlink()
+    assert class_colors(classes)[:3].tolist() == [[70, 110, 200], [225, 60, 55], [140, 140, 140]]
