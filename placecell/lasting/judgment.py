@@ -50,7 +50,8 @@ class ObservedSegments:
         centroids: float64 (n, 3), meters.
         sides: float64 (n, 3), sides of the axis-aligned boxes, meters; zeros: unknown.
         viewpoints: float64 (f, 3), sensor positions of the captures, meters.
-        captures: int64 (n,), capture of each segment.
+        captures: int64 (n,), capture of each segment; -1 in a pass: none that the pass is judged
+            from.
     """
 
     centroids: Float64
@@ -88,7 +89,7 @@ def judge(
         return verdicts
     away = np.linalg.norm(stored.centroids - stored.viewpoints[stored.captures], axis=1)
     reach = np.maximum(away, LEAST_REACH)
-    for capture in np.unique(later.captures).tolist():
+    for capture in np.unique(later.captures[later.captures >= 0]).tolist():
         check()
         viewpoint = later.viewpoints[capture]
         distance = np.linalg.norm(stored.centroids - viewpoint, axis=1)

@@ -186,6 +186,22 @@ class MapLayers:
         values[above] = recent[rows[above] - len(self.base)]
         return values
 
+    def presence(self, rows: Int64) -> Float64 | None:
+        """Return how surely the segments of rows still stand there, 0 to 1, as an array like rows.
+
+        It is (1 + confirmed) / (1 + confirmed + absent). None: no pass judged this map.
+        """
+        if "absent" not in self.optional:
+            return None
+        above = rows >= len(self.base)
+        counts = np.zeros((2, *rows.shape))
+        for layer, here, first in ((self.base, ~above, 0), (self.recent, above, len(self.base))):
+            for count, column in zip(counts, (layer.confirmed, layer.absent), strict=True):
+                if column is not None:
+                    count[here] = column[rows[here] - first]
+        confirmed, absent = counts
+        return np.asarray((1 + confirmed) / (1 + confirmed + absent))
+
     def site_sample(self) -> SiteSample:
         """Return the segments that a calibration reads, whatever layers hold them."""
         rows = _first_rows(self, milestone(len(self)))

@@ -62,7 +62,9 @@ class StoredNeighborhood:
     def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
         """Return the match probability of each pair of query and row."""
         codes = self._layers.column("codes", rows)
-        return self._comparison.probabilities(queries, codes)
+        probabilities = self._comparison.probabilities(queries, codes)
+        presence = self._layers.presence(rows)
+        return probabilities if presence is None else probabilities * presence
 
 
 def map_query(

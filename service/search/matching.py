@@ -327,4 +327,9 @@ def _probabilities(codes: Int8, model: Model, nearest: NearestSegments) -> Float
         queries, columns = np.nonzero(few)
         compared = QueryComparison(codes, model, default, comparable=True)
         stated[queries, columns] = compared.probabilities(queries, found[queries, columns])
+    for place in np.flatnonzero(counts).tolist():
+        here = places == place
+        presence = nearest.searched[place].layers.presence(nearest.rows[here])
+        if presence is not None:
+            stated[here] *= presence
     return stated

@@ -10,7 +10,9 @@ from placecell_client import CompactMap, Delta
 from placecell_client.maps.compact_map import OPTIONAL
 
 PROVENANCE = ("source", "source_ids")
-GROUPS = [*((name,) for name in OPTIONAL if name not in PROVENANCE), PROVENANCE]
+LONG_LIFE = ("missed", "confirmed", "absent")
+TOGETHER = (PROVENANCE, LONG_LIFE)
+GROUPS = [*((name,) for name in OPTIONAL if not any(name in each for each in TOGETHER)), *TOGETHER]
 """Groups of optional columns that come together."""
 SOURCES = ("west", "unused", "east")
 
@@ -48,6 +50,9 @@ def random_map(
         "extents": random.integers(0, 256, (segments, 3)).astype(np.uint8),
         "points": random.integers(0, 1 << 16, segments).astype(np.uint16),
         "views": given.ids[random.integers(0, max(segments, 1), segments)],
+        "missed": random.integers(0, 1 << 32, segments).astype(np.uint32),
+        "confirmed": random.integers(0, 256, segments).astype(np.uint8),
+        "absent": random.integers(0, 256, segments).astype(np.uint8),
         "seen": random.integers(0, 1 << 32, segments).astype(np.uint32),
         "source": (np.arange(segments) % 3 + np.arange(segments) % 3 // 2).astype(np.uint16),
     }

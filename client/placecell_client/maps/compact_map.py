@@ -33,13 +33,17 @@ OPTIONAL: dict[str, tuple[type[np.unsignedinteger[Any]], tuple[int, ...]]] = {
     "points": (np.uint16, ()),
     "views": (np.uint32, ()),
     "seen": (np.uint32, ()),
+    "missed": (np.uint32, ()),
     "source": (np.uint16, ()),
     "source_ids": (np.uint32, ()),
     "classes": (np.uint8, ()),
+    "confirmed": (np.uint8, ()),
+    "absent": (np.uint8, ()),
 }
 """Optional columns: type, and shape of one segment's value.
 
-`source` and `source_ids`, the provenance of a segment, come together.
+`source` and `source_ids`, the provenance of a segment, come together, and so do `missed`,
+`confirmed` and `absent`.
 """
 
 
@@ -77,6 +81,8 @@ class CompactMap:
             it; a single view has its own id. The first view may have been removed.
         seen: Time when the segment was last seen, whole seconds on the clock of `frame_times`,
             uint32 (n,).
+        missed: Time of the last pass that should have seen the segment and did not, whole seconds
+            as in `seen`; 0: there was none. uint32 (n,).
         source: Map that the segment was merged from, `sources[source - 1]`; 0: written to this map.
             uint16 (n,).
         source_ids: Id of the segment in its source map, uint32 (n,); its own id if `source` is 0.
@@ -90,6 +96,9 @@ class CompactMap:
             when the captures are moved.
         classes: Class of the segment and its probability, as `placecell_client.classes` reads them,
             uint8 (n,); 0: unknown.
+        confirmed: Number of later passes that saw the object again, at most 255, uint8 (n,).
+        absent: Number of passes since then that should have seen it and did not, at most 255,
+            uint8 (n,).
     """
 
     model_id: str
@@ -114,6 +123,9 @@ class CompactMap:
     frame_tracks: NDArray[np.uint32] | None = None
     frame_odometry: NDArray[np.float64] | None = None
     classes: NDArray[np.uint8] | None = None
+    missed: NDArray[np.uint32] | None = None
+    confirmed: NDArray[np.uint8] | None = None
+    absent: NDArray[np.uint8] | None = None
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -156,6 +168,7 @@ class CompactMap:
         _check_columns(self)
         _check_values(self)
         _check_classes(self)
+        _check_long_life(self)
         _check_provenance(self)
         _check_odometry(self)
 
@@ -234,6 +247,13 @@ def _check_values(compact_map: CompactMap) -> None:
             raise MapFileError(
                 f"{name}: index {int(column.max())}, but the table has {size} entries"
             )
+
+
+def _check_long_life(compact_map: CompactMap) -> None:
+    names = ("missed", "confirmed", "absent")
+    present = [name for name in names if getattr(compact_map, name) is not None]
+    if present and len(present) < len(names):
+        raise MapFileError(f"{', '.join(names)}: expected all columns or none, found {present}")
 
 
 def _check_classes(compact_map: CompactMap) -> None:

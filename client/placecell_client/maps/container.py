@@ -31,6 +31,7 @@ DTYPES = {
     "frame_tracks": ("U32",),
     "views": ("U32",),
     "seen": ("U32",),
+    "missed": ("U32",),
     "source_ids": ("U32",),
     "removed": ("U32",),
     "moved_ids": ("U32",),
@@ -42,6 +43,8 @@ DTYPES = {
     "robot": ("U8", "U16"),
     "extents": ("U8",),
     "classes": ("U8",),
+    "confirmed": ("U8",),
+    "absent": ("U8",),
     "codes": ("I8",),
 }
 _NAMES = {

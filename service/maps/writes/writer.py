@@ -31,6 +31,7 @@ from service.maps.writes.deduplication import (
     deduplicate,
 )
 from service.maps.writes.id_rules import check_authors, check_new, check_only_new, check_own
+from service.maps.writes.long_life import judged_by
 from service.maps.writes.newest import on_newest
 from service.maps.writes.validation import (
     FileKind,
@@ -142,8 +143,12 @@ class MapWriter:
             refreshed, repeats = NONE, 0
             if options.deduplicate:
                 unique = self._deduplicated(edit, layers)
-                edit = replace(edit, changed=unique.changed)
-                refreshed, repeats = unique.refreshed, unique.repeats
+                changed, refreshed = unique.changed, unique.refreshed
+                if edit.changed.extents is not None and len(edit.changed):
+                    changed, refreshed = judged_by(
+                        edit.changed, changed, refreshed, edit.removed, layers
+                    )
+                edit, repeats = replace(edit, changed=changed), unique.repeats
             if snapshot is None:
                 result = self.create(name, edit.changed, encode(edit.changed), "edit")
                 return replace(result, repeats=repeats)
