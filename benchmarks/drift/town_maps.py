@@ -220,10 +220,8 @@ class _Mapper:
             return
         live = self._segmentation.segments()
         self._segmentation.take_final_views()
-        codes, centroids, usable = self._engine.describe(clouds_of(live), live.segments.sensors)
-        seen = SeenSegments(
-            live.ids[usable], codes, centroids, self._engine.model_id, self._engine.preprocessing
-        )
+        found = self._engine.describe(clouds_of(live), live.segments.sensors)
+        seen = SeenSegments.of(found, live.ids, self._engine.model_id, self._engine.preprocessing)
         capture = Capture(scan * SWEEP_SECONDS, pose)
         edit = self._edits.add(seen, capture, meters)
         if edit is not None:

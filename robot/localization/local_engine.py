@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 from placecell_client import CompactMap
 from scipy.spatial import cKDTree
 
-from placecell.core.types import Float64, Int8, Int64
+from placecell.core.types import Float64
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
 from robot.core.link import FixAnswer, FixRequest
+from robot.core.usable_segments import UsableSegments
 from robot.localization.rigid import covariance_at_sensor
 
 if TYPE_CHECKING:
@@ -63,9 +64,7 @@ class LocalEngine:
         """Remove the map and the model from memory."""
         self._engine.close()
 
-    def describe(
-        self, clouds: "Sequence[ArrayLike]", sensors: ArrayLike
-    ) -> tuple[Int8, Float64, Int64]:
+    def describe(self, clouds: "Sequence[ArrayLike]", sensors: ArrayLike) -> UsableSegments:
         """Describe the segments of one capture.
 
         Args:
@@ -73,21 +72,26 @@ class LocalEngine:
             sensors: position of the sensor for each segment, (segments, 3).
 
         Returns:
-            Codes, int8 (k, code bytes), and centroids, float64 (k, 3), of the segments that have a
-            descriptor, and their indices, int64 (k,).
+            The segments that have a descriptor.
         """
         from service.core.problems import Problem
 
-        empty = np.zeros((0, self._engine.model.manifest.code_bytes), np.int8)
+        codes = np.zeros((0, self._engine.model.manifest.code_bytes), np.int8)
+        none = UsableSegments(codes, np.zeros((0, 3)), np.zeros(0, np.int64))
         if not len(clouds):
-            return empty, np.zeros((0, 3)), np.zeros(0, np.int64)
+            return none
         try:
             found = self._engine.describe(clouds, sensors)
         except Problem:  # No segment can be described.
-            return empty, np.zeros((0, 3)), np.zeros(0, np.int64)
+            return none
         usable = found.usable
         assert found.centroids is not None
-        return found.codes[usable], found.centroids[usable], usable
+        return UsableSegments(
+            found.codes[usable],
+            found.centroids[usable],
+            usable,
+            None if found.classes is None else found.classes[usable],
+        )
 
     def set_map(self, content: CompactMap, etag: str) -> None:
         """Search another version of the map from now on.

@@ -6,13 +6,15 @@ without faults.
 """
 
 from dataclasses import dataclass
+from typing import Self
 from zlib import crc32
 
 import numpy as np
 from placecell_client import CompactMap, Delta, encode_delta
 from scipy.spatial.transform import Rotation
 
-from placecell.core.types import Float64, Int8, Int64
+from placecell.core.types import Float64, Int8, Int64, UInt8
+from robot.core.usable_segments import UsableSegments
 
 NO_IDS = np.zeros(0, dtype=np.int64)
 VIEW_METERS = 10.0
@@ -42,6 +44,8 @@ class SeenSegments:
         centroids: float64 (n, 3), meters.
         model_id: id of the model of the descriptors.
         preprocessing: version of the steps from points to the model's input.
+        classes: class of each segment with its probability, uint8 (n,); None if the model has no
+            semantic head.
     """
 
     ids: Int64
@@ -49,6 +53,13 @@ class SeenSegments:
     centroids: Float64
     model_id: str
     preprocessing: str
+    classes: UInt8 | None = None
+
+    @classmethod
+    def of(cls, found: UsableSegments, ids: Int64, model_id: str, preprocessing: str) -> Self:
+        """Return the usable segments of a capture, whose ids are int64 (segments,)."""
+        kept = ids[found.usable]
+        return cls(kept, found.codes, found.centroids, model_id, preprocessing, found.classes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,6 +165,7 @@ class EditMaker:
             frame_positions=pose[None, :3, 3].copy(),
             frame_orientations=turn[None].astype(np.float32),
             frame_tracks=np.array([track_of(self.frame)], np.uint32),
+            classes=None if seen.classes is None else seen.classes[chosen],
             frame_odometry=_odometry_of(pose)[None],
         )
         content = encode_delta(Delta(segments, np.array(sorted(left), dtype=np.uint32)))

@@ -12,8 +12,9 @@ from typing import Literal, Self
 import numpy as np
 
 from placecell.core.parameters import Parameters
-from placecell.core.types import Float32, Float64, Int8, Int64
+from placecell.core.types import Float32, Float64, Int8
 from placecell.segmentation.incremental import IncrementalSegmentation, LiveSegments
+from robot.core.usable_segments import UsableSegments
 from robot.localization.scan_jump import ScanAgreement, object_columns
 from robot.mapping.keyframes import Keyframes
 from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
@@ -29,9 +30,8 @@ are missing."""
 Jump = Literal["doubt", "cleared", "carried away"]
 """A scan that does not fit the one before; the next one that does; a second one that does not."""
 
-Describe = Callable[[list[Float32], Float32], tuple[Int8, Float64, Int64]]
-"""Function that describes the segments of a capture: codes, centroids, and indices of those that
-have a descriptor."""
+Describe = Callable[[list[Float32], Float32], UsableSegments]
+"""Function that describes the segments of a capture."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -180,11 +180,10 @@ class Perception:
         moves = every.moved & (not self.keep_moving)
         live = every.take(np.flatnonzero(~moves))
         self.segmentation.take_final_views()  # Views of all sides are stored, not only the best.
-        codes, centroids, usable = describe(clouds_of(live), live.segments.sensors)
-        seen = SeenSegments(live.ids[usable], codes, centroids, self.model_id, self.preprocessing)
-        return Keyframe(live, codes, centroids), self.map_out.add(
-            seen, capture, self.meters, every.ids[moves]
-        )
+        found = describe(clouds_of(live), live.segments.sensors)
+        seen = SeenSegments.of(found, live.ids, self.model_id, self.preprocessing)
+        edit = self.map_out.add(seen, capture, self.meters, every.ids[moves])
+        return Keyframe(live, found.codes, found.centroids), edit
 
     def _take(self, points: Float32, capture: Capture) -> None:
         self.segmentation.add(points, capture.odom_pose)

@@ -8,12 +8,13 @@ from numpy.typing import ArrayLike
 from placecell_client import CompactMap, Delta, MapCopy, decode_delta
 from placecell_client.maps.edit import apply
 
-from placecell.core.types import Float32, Float64, Int8, Int64
+from placecell.core.types import Float32, Float64
 from robot.agent import RobotAgent
 from robot.core.link import FixAnswer, FixRequest, RefusedError
 from robot.core.map_to_odom import MapToOdom
 from robot.core.settings import AgentSettings
 from robot.core.status import AgentStatus, Fix
+from robot.core.usable_segments import UsableSegments
 from robot.core.worker import InlineWorker
 from robot.outputs.output import NoOutput
 
@@ -41,13 +42,12 @@ class FakeEngine:
     def has_map(self) -> bool:
         return self.pulled is not None
 
-    def describe(
-        self, clouds: Sequence[ArrayLike], sensors: ArrayLike
-    ) -> tuple[Int8, Float64, Int64]:
+    def describe(self, clouds: Sequence[ArrayLike], sensors: ArrayLike) -> UsableSegments:
         arrays = [np.asarray(cloud, np.float64) for cloud in clouds]
         codes = np.array([[len(each) % 128] * 4 for each in arrays], np.int8).reshape(-1, 4)
         centroids = np.array([each.mean(axis=0) for each in arrays]).reshape(-1, 3)
-        return codes, centroids, np.arange(len(arrays))
+        classes = np.full(len(arrays), 1 + 31 * 3 + 27, np.uint8)
+        return UsableSegments(codes, centroids, np.arange(len(arrays)), classes)
 
     def set_map(self, content: CompactMap, etag: str) -> None:
         self.pulled = content

@@ -4,6 +4,7 @@ import numpy as np
 from placecell_client import CompactMap, decode_delta
 from placecell_client.maps.edit import apply
 
+from robot.core.usable_segments import UsableSegments
 from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
 from tests.robot.agent_fakes import at
 
@@ -54,3 +55,19 @@ def test_segment_that_ended_or_another_part_is_not_removed() -> None:
     assert add(edits, 4.0, 2, moved=(1,)) is None
     edits.begin_part()
     assert add(edits, 6.0, moved=(2,)) is None
+
+
+def test_edit_carries_the_classes_of_the_new_views() -> None:
+    edits = EditMaker("ann", "s")
+    found = UsableSegments(
+        np.full((2, 4), 7, np.int8),
+        np.array([[1, 1, 0], [2, 1, 0]], np.float64),
+        np.array([0, 2]),
+        np.array([0, 121], np.uint8),
+    )
+    described = SeenSegments.of(found, np.array([5, 6, 7]), "model-1", "1")
+    assert described.ids.tolist() == [5, 7]
+    edit = edits.add(described, Capture(0.0, at(0)), 0.0)
+    content = stored(None, edit)
+    assert content.classes is not None
+    assert content.classes.tolist() == [0, 121]
