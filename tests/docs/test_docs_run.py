@@ -54,6 +54,7 @@ HELD_ELSEWHERE = {
     "cpp": "checked in tests/client/test_map_file_document.py and test_msgpack_document.py",
     "map": "compared in tests/client/test_map_file_document.py",
     "delta": "compared in tests/client/test_map_file_document.py",
+    "moved": "compared in tests/client/test_map_file_document.py",
     "request": "compared in tests/client/test_msgpack_document.py",
     "answer": "compared in tests/client/test_msgpack_document.py",
     "text": "no command",
