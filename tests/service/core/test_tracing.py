@@ -97,7 +97,7 @@ def test_failed_request_is_an_error(
 ) -> None:
     placecell = service.app.state.placecell
     monkeypatch.setattr(type(placecell), "model_id", property(lambda _: "m"))
-    monkeypatch.setattr(placecell.engine.maps, "all", lambda: 1 / 0)
+    monkeypatch.setattr(placecell.engine.maps, "entries", lambda: 1 / 0)
     assert service.get("/maps").status_code == 500
     assert by_name(exporter)["GET /maps"].status.status_code.name == "ERROR"
 

@@ -93,12 +93,12 @@ def test_write_that_the_server_ended_for_idleness_is_repeated(
     head = store.create("yard", b"file", NOTE, 0)
     append, calls = operations.append_commit, list[Any]()
 
-    def slow(rows: Any, *arguments: Any) -> MapHead:
+    def slow(rows: Any, *arguments: Any, **named: Any) -> MapHead:
         calls.append(arguments)
         if len(calls) == 1:
             rows.execute("SET LOCAL idle_in_transaction_session_timeout = '50ms'")
             time.sleep(0.4)
-        return append(rows, *arguments)
+        return append(rows, *arguments, **named)
 
     monkeypatch.setattr("service.maps.postgres.store.append_commit", slow)
     assert store.append(head, b"one", NOTE, 0).sequence == 2
