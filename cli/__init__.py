@@ -30,6 +30,7 @@ from cli.study import study
 from cli.town import town
 from cli.train import train
 from cli.train_classes import train_classes
+from cli.train_shapes import train_shapes
 
 OLD_SPELLINGS = {"metres": "meters", "pair-metres": "pair-meters", "licence": "license"}
 """Former British spellings of options; they are accepted, but not shown."""
@@ -102,6 +103,7 @@ app.command(rich_help_panel=EVALUATE)(takes_drives(calibrate))
 app.command(rich_help_panel=EVALUATE)(takes_drives(study))
 app.command(rich_help_panel=TRAIN)(takes_drives(train))
 app.command(rich_help_panel=TRAIN)(takes_drives(train_classes))
+app.command(rich_help_panel=TRAIN)(takes_drives(train_shapes))
 app.command(rich_help_panel=TRAIN)(fit_confidence)
 app.command(rich_help_panel=TRAIN)(takes_drives(experiments))
 app.command(rich_help_panel=TRAIN)(takes_drives(ablations))

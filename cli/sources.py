@@ -2,7 +2,7 @@
 
 import re
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -138,17 +138,20 @@ def sources(texts: Iterable[str]) -> "list[Source]":
     Robot B's drive is left out: it shows the same houses, which training would treat as different
     groups.
     """
+    return list(each_source(texts))
+
+
+def each_source(texts: Iterable[str]) -> "Iterator[Source]":
+    """Load drives, parts of drives, and towns, one after the other (see `sources`)."""
     from training.data.training_set import Source
 
-    found = []
     for text in texts:
         if text.startswith("town:"):
             seed, sensor, place = parse_town(text)
             recording, _ = town_recordings(seed, TOWN_SCANS, sensor, place)
-            found.append(Source(replace(recording, name=text), 0, recording.scans - 1))
+            yield Source(replace(recording, name=text), 0, recording.scans - 1)
         else:
-            found.append(source(text))
-    return found
+            yield source(text)
 
 
 OTHER_CARS = "+other-cars"

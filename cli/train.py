@@ -75,7 +75,7 @@ def train(
         from training.export.publishing import collect, publish_eigenvalue, retraining
 
         parts = sources(drives)
-        command = retraining(method, parts, license_name, seed, *options)
+        command = retraining(["train", method], parts, license_name, seed, *options)
         around = NEIGHBORHOOD_V1 if method is Method.CONTEXT else None
         data = collect(parts, license_name, around).stating(seed=seed, command=command)
         if method is Method.EIGENVALUE:

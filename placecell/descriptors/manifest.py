@@ -24,15 +24,23 @@ PAIR_FILE = "pair.onnx"
 FULL_FILE = "model-fp32.onnx"
 """File of the float32 network of a model that is served with 8-bit integers. Not part of the id."""
 
+SHAPE_FILE = "shape.onnx"
+"""Optional file of the shape decoder (`placecell.shapes`). It is not part of the id."""
 
 CLASSES_FILE = "classes.onnx"
 """File of the head that tells a segment's class. Not part of the id."""
+
+BESIDE = frozenset({PAIR_FILE, FULL_FILE, SHAPE_FILE, CLASSES_FILE})
+"""Files that do not influence descriptors."""
 
 CALIBRATION_FILE = "calibration.json"
 """Optional file of `placecell calibrate`; its site constants replace those of the manifest."""
 
 JSON_KEYS = {"quantizer": "quantiser", "standardization": "standardisation"}
 """Keys of `manifest.json` that differ from the attribute's name, kept for published models."""
+
+OPTIONAL_KEYS = frozenset({"shape"})
+"""Keys that are left out if they are empty, so that earlier versions read the manifest."""
 
 
 class ModelError(ValueError):
@@ -59,6 +67,7 @@ class Manifest:
             empty without a head. Not part of the id.
         training: drives, scans and their hashes, seed, time and licenses. Not part of the id.
         figures: measured results. Not part of the id.
+        shape: training and figures of the shape decoder; empty without one. Not part of the id.
     """
 
     name: str
@@ -74,6 +83,7 @@ class Manifest:
     classes: dict[str, Any] = field(default_factory=dict)
     training: dict[str, Any] = field(default_factory=dict)
     figures: dict[str, Any] = field(default_factory=dict)
+    shape: dict[str, Any] = field(default_factory=dict)
 
     @cached_property
     def model_id(self) -> str:
@@ -84,9 +94,7 @@ class Manifest:
             "quantiser": self.quantizer.as_dict(),
             "preprocessing": self.preprocessing,
             "files": {
-                name: sha
-                for name, sha in self.files.items()
-                if name not in {PAIR_FILE, FULL_FILE, CLASSES_FILE}
+                name: sha for name, sha in self.files.items() if name not in BESIDE
             },
             "standardisation": self.standardization,
         }
@@ -100,11 +108,11 @@ class Manifest:
     def save(self, folder: Path) -> None:
         """Write `manifest.json`."""
         content = {"model_id": self.model_id} | {
-            JSON_KEYS.get(name, name): value for name, value in asdict(self).items()
+            JSON_KEYS.get(name, name): value
+            for name, value in asdict(self).items()
+            if value or name not in OPTIONAL_KEYS
         }
         content["quantiser"] = self.quantizer.as_dict()
-        if not self.classes:
-            del content["classes"]  # Earlier versions refuse unknown keys.
         (folder / FILE).write_text(json.dumps(content, indent=2) + "\n")
 
     @classmethod

@@ -16,7 +16,7 @@ def sensor_bearings(segments: Segments) -> Float64:
 
     The bearing is 0 if the sensor is exactly above or below the centroid (within a micrometer).
     """
-    return _bearings(segments.sensors, segments.centroids())
+    return bearings_of(segments.sensors[:, :2] - segments.centroids()[:, :2])
 
 
 def orient(segments: Segments, yaw: Float64 | float = 0.0) -> Float32:
@@ -34,16 +34,20 @@ def orient(segments: Segments, yaw: Float64 | float = 0.0) -> Float32:
     """
     oriented = np.empty((len(segments.points), 3), dtype=np.float32)
     centroids = segments.centroids()
-    turn = np.asarray(yaw - _bearings(segments.sensors, centroids))
+    turn = np.asarray(yaw - bearings_of(segments.sensors[:, :2] - centroids[:, :2]))
     points = np.ascontiguousarray(segments.points)
     _turn(points, segments.ends, centroids, np.cos(turn), np.sin(turn), oriented)
     return oriented
 
 
-def _bearings(sensors: Float32, centroids: Float64) -> Float64:
-    offset = sensors[:, :2] - centroids[:, :2]
-    bearing = np.arctan2(offset[:, 1], offset[:, 0])
-    return np.asarray(np.where(np.hypot(offset[:, 0], offset[:, 1]) > 1e-6, bearing, 0.0))
+def bearings_of(offsets: Float64) -> Float64:
+    """Return the bearing of each vector, radians about z; 0 for (nearly) vertical ones.
+
+    Args:
+        offsets: vectors, float64 (n, 2) or (n, 3), meters.
+    """
+    x, y = offsets[:, 0], offsets[:, 1]
+    return np.asarray(np.where(np.hypot(x, y) > 1e-6, np.arctan2(y, x), 0.0))
 
 
 @compiled

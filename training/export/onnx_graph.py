@@ -86,11 +86,15 @@ def export_onnx(
     if isinstance(network, ExportedContext):
         example += (torch.ones((2, len(network.mean))),)
         inputs.append("surroundings")
-    to_onnx(network, example, inputs, "descriptor", file)
+    to_onnx(network, example, inputs, ["descriptor"], file)
 
 
 def to_onnx(
-    network: nn.Module, example: tuple[Tensor, ...], inputs: list[str], output: str, file: Path
+    network: nn.Module,
+    example: tuple[Tensor, ...],
+    inputs: list[str],
+    outputs: list[str],
+    file: Path,
 ) -> None:
     """Write a module as ONNX; the first dimension of every input is the batch, of any size."""
     network.eval()
@@ -101,7 +105,7 @@ def to_onnx(
             network,
             example,
             input_names=inputs,
-            output_names=[output],
+            output_names=outputs,
             dynamic_shapes=tuple({0: batch} for _ in example),
             opset_version=OPSET,
             dynamo=True,

@@ -291,4 +291,4 @@ def choose(
 def export_pair(graph: nn.Module, dimension: int, file: Path) -> None:
     """Write a pair classifier as ONNX, with inputs `a` and `b` of any number of rows."""
     example = (torch.zeros((2, dimension)), torch.ones((2, dimension)))
-    to_onnx(graph, example, ["a", "b"], "probability", file)
+    to_onnx(graph, example, ["a", "b"], ["probability"], file)

@@ -110,9 +110,21 @@ def collect(
 
 
 def retraining(
-    method: str, sources: Sequence[Source], license_name: str, seed: int, *options: object
+    command: Sequence[str],
+    sources: Sequence[Source],
+    license_name: str,
+    seed: int,
+    *options: object,
 ) -> str:
-    """Return the commands that train a model again, beginning with the drives."""
+    """Return the commands that train again, beginning with the drives.
+
+    Args:
+        command: words of the command before the drives, such as `train context`.
+        sources: parts of recordings.
+        license_name: license of the drives.
+        seed: random seed of the training.
+        options: further words of the command.
+    """
     lines, prepared = [], []
     for source in sources:
         recording, file = source.recording, f"data/{source.recording.name}.safetensors"
@@ -123,7 +135,7 @@ def retraining(
         lines.append(f"placecell prepare {shlex.quote(recording.name)} --every {step} -o data")
         whole_drive = (source.first, source.last) == (0, recording.scans - 1)
         prepared.append(file if whole_drive else f"{file}@{source.first}:{source.last}")
-    words = ["placecell", "train", method, *dict.fromkeys(prepared), "--seed", seed, *options]
+    words = ["placecell", *command, *dict.fromkeys(prepared), "--seed", seed, *options]
     lines.append(shlex.join(map(str, [*words, "--license", license_name])))
     return "\n".join(dict.fromkeys(lines))
 

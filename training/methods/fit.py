@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 import torch
@@ -15,6 +15,15 @@ Batch = TypeVar("Batch")
 
 BatchLoss = tuple[Tensor, Figures]
 """Loss and further figures of a batch, which are averaged over the epoch."""
+
+
+class Descent(Protocol):
+    """Settings of an optimizer and of its learning rates."""
+
+    def start(
+        self, model: nn.Module, epochs: int, steps: int
+    ) -> tuple[torch.optim.Optimizer, torch.optim.lr_scheduler.LRScheduler]:
+        """Return optimizer and schedule for a number of epochs of `steps` steps each."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +63,7 @@ class Sgd:
 def fit(
     model: nn.Module,
     run: Run,
-    sgd: Sgd,
+    descent: Descent,
     epochs: int,
     steps: int,
     draw: Callable[[int, np.random.Generator], Iterator[Batch]],
@@ -66,7 +75,7 @@ def fit(
     Args:
         model: module whose parameters are learned.
         run: seed, checkpoints and history of the training.
-        sgd: settings of the gradient descent.
+        descent: settings of the gradient descent.
         epochs: total number of epochs, including those before a stop.
         steps: number of batches per epoch.
         draw: function that yields the `steps` batches of an epoch, from its number and its random
@@ -74,7 +83,7 @@ def fit(
         loss_of: function that returns the loss and further figures of a batch.
         validate: function that returns figures of the model after an epoch.
     """
-    optimizer, schedule = sgd.start(model, epochs, steps)
+    optimizer, schedule = descent.start(model, epochs, steps)
     for epoch in run.epochs(epochs, model, optimizer, schedule):
         batches = draw(epoch, run.random(epoch))
         values = defaultdict[str, list[float]](list)

@@ -1,0 +1,1 @@
+"""Shapes of stored segments: occupancy, points and meshes, decoded from the codes of a map."""

@@ -1,0 +1,1 @@
+"""Training of the shape decoder, which turns stored codes back into occupancy grids."""

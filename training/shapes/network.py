@@ -1,0 +1,199 @@
+"""Network of the shape decoder: logits of occupancy from what a map holds of a segment.
+
+A small perceptron reads the segment's own part of the descriptor, where the sensor was, the box and
+the number of points. Its features weight a basis of grids, and profiles along the axes. The box is
+known along the map's axes; voxels outside of it are excluded by its turned sides.
+"""
+
+from itertools import pairwise
+
+import torch
+from torch import Tensor, nn
+from torch.nn import functional
+
+from placecell.core.types import Float32
+
+HIDDEN = 512
+"""Number of features of the perceptron's layers."""
+
+BASIS = 112
+"""Number of grids in the basis; with 8-bit weights they take 2.9 MB."""
+
+OUTSIDE = 12.0, 0.4
+"""Logit that is subtracted for each meter outside of the box, and largest distance, meters."""
+
+ENTROPY, OCCUPIED = 0.5, 4.0
+"""Weight of the cross entropy in the loss, and weight of occupied voxels in the cross entropy."""
+
+EMPTY = -1.5
+"""Logit of a voxel before the training."""
+
+FEATURES = 19
+"""Number of inputs of the perceptron beside the descriptor."""
+
+
+class ShapeNetwork(nn.Module):
+    """Network of the shape decoder."""
+
+    own: Tensor
+    places: Tensor
+    cells: Tensor
+
+    def __init__(self, own: Float32, grid: tuple[int, int, int], voxel: float) -> None:
+        """Create the network.
+
+        Args:
+            own: projection of a descriptor to the segment's own part, float32 (dimension, own).
+            grid: number of voxels along x, y, z.
+            voxel: edge length of a voxel, meters.
+        """
+        super().__init__()
+        self.grid, self.voxel = grid, voxel
+        self.register_buffer("own", torch.from_numpy(own))
+        cells = torch.cartesian_prod(*(torch.arange(size) for size in grid))
+        middle = (torch.tensor(grid) - 1) / 2
+        self.register_buffer("cells", cells, persistent=False)
+        self.register_buffer("places", (cells - middle) * voxel, persistent=False)
+        widths = [own.shape[1] + FEATURES, HIDDEN, HIDDEN]
+        layers: list[nn.Module] = []
+        for before, after in pairwise(widths):
+            layers += [nn.Linear(before, after), nn.ReLU()]
+        self.perceptron = nn.Sequential(*layers)
+        self.center = nn.Linear(HIDDEN, 3)
+        self.box = nn.Linear(HIDDEN, 3)
+        nn.init.zeros_(self.box.weight)
+        nn.init.zeros_(self.box.bias)
+        self.weights = nn.Linear(HIDDEN, BASIS)
+        self.basis = nn.Linear(BASIS, len(cells))
+        nn.init.normal_(self.basis.weight, std=0.02)
+        nn.init.constant_(self.basis.bias, EMPTY)
+        self.profiles = nn.ModuleList(nn.Linear(HIDDEN, size) for size in grid)
+
+    def forward(
+        self, descriptor: Tensor, offset: Tensor, bearing: Tensor, extents: Tensor, points: Tensor
+    ) -> tuple[Tensor, Tensor]:
+        """Return logits, float32 (n, x, y, z), and the grid's center, float32 (n, 3).
+
+        Args:
+            descriptor: decoded descriptors, float32 (n, dimension).
+            offset: horizontal distance from the sensor to the centroid, and height of the centroid
+                above the sensor, float32 (n, 2), meters.
+            bearing: bearing of the sensor from the centroid, float32 (n,), radians.
+            extents: box along the map's axes, float32 (n, 3), meters; three zeros: unknown.
+            points: number of points, float32 (n,); 0: unknown.
+        """
+        given = descriptor, offset, bearing, extents, points
+        logits, center = self.at(None, *given)
+        return logits.reshape(-1, *self.grid), center
+
+    def at(
+        self,
+        voxels: Tensor | None,
+        descriptor: Tensor,
+        offset: Tensor,
+        bearing: Tensor,
+        extents: Tensor,
+        points: Tensor,
+    ) -> tuple[Tensor, Tensor]:
+        """Return logits of some voxels, float32 (n, voxels), and the centers; see `forward`.
+
+        Args:
+            voxels: indices of voxels, int64 (voxels,); None: all.
+            descriptor: see `forward`, as all others.
+        """
+        cosine, sine = torch.cos(bearing)[:, None], torch.sin(bearing)[:, None]
+        known = (extents.sum(dim=1, keepdim=True) > 0).float()
+        features = self.perceptron(
+            torch.cat(
+                [
+                    functional.normalize(descriptor @ self.own, dim=1) * self.own.shape[1] ** 0.5,
+                    *inputs(offset, cosine, sine, extents, known, points),
+                ],
+                dim=1,
+            )
+        )
+        weight, bias, places, cells = self.basis.weight, self.basis.bias, self.places, self.cells
+        if voxels is not None:
+            weight, bias = weight[voxels], bias[voxels]
+            places, cells = places[voxels], cells[voxels]
+        logits = functional.linear(self.weights(features), weight, bias)
+        for axis, profile in enumerate(self.profiles):
+            logits = logits + profile(features)[:, cells[:, axis]]
+        shift = self.box(features)
+        beyond = outside(places, cosine, sine, extents, shift, self.voxel / 2)
+        rate, most = OUTSIDE
+        logits = logits.float() - rate * beyond.clamp(max=most) * known
+        return logits, self.center(features).float()
+
+
+def inputs(
+    offset: Tensor, cosine: Tensor, sine: Tensor, extents: Tensor, known: Tensor, points: Tensor
+) -> list[Tensor]:
+    """Return the inputs of the perceptron beside the descriptor, all about -2 to 2.
+
+    The box along the map's axes does not change when both turn by half a turn. So it is read with
+    twice the bearing, and as the box around it along the axes of the grid.
+    """
+    double = torch.cat([cosine**2 - sine**2, 2 * sine * cosine], dim=1)
+    fourfold = torch.cat(
+        [double[:, :1] ** 2 - double[:, 1:] ** 2, 2 * double[:, :1] * double[:, 1:]], dim=1
+    )
+    lengths = torch.log(extents.clamp(min=0.1))
+    longer = lengths[:, :1] - lengths[:, 1:2]
+    along = extents[:, :1] * cosine.abs() + extents[:, 1:2] * sine.abs()
+    across = extents[:, :1] * sine.abs() + extents[:, 1:2] * cosine.abs()
+    counted = (points[:, None] > 0).float()
+    return [
+        torch.log(offset[:, :1].clamp(min=0.5)) - 2,
+        offset[:, 1:] / 2,
+        known,
+        torch.cat([lengths, extents / 4, double, fourfold, longer * double], dim=1) * known,
+        torch.cat([along, across], dim=1) / 4 * known,
+        counted,
+        (torch.log(points[:, None].clamp(min=1)) - 5) / 2 * counted,
+    ]
+
+
+def outside(
+    places: Tensor, cosine: Tensor, sine: Tensor, extents: Tensor, shift: Tensor, margin: float
+) -> Tensor:
+    """Return how far each voxel's center is outside of the box, float32 (n, voxels), meters.
+
+    Args:
+        places: centers of voxels relative to the grid's center, float32 (voxels, 3), meters.
+        cosine: cosine of the bearing, float32 (n, 1).
+        sine: sine of the bearing, float32 (n, 1).
+        extents: box along the map's axes, float32 (n, 3), meters.
+        shift: horizontal shift of the box's center in meters, and change of the margin in
+            `margin`s, float32 (n, 3).
+        margin: half a voxel, meters: a voxel is occupied if the box touches it.
+    """
+    x, y, z = places.T
+    east = x * cosine - y * sine - shift[:, :1]
+    north = x * sine + y * cosine - shift[:, 1:2]
+    wider = margin * (1 + shift[:, 2:])
+    horizontal = torch.maximum(
+        east.abs() - extents[:, :1] / 2, north.abs() - extents[:, 1:2] / 2
+    ) - wider
+    vertical = z.abs() - extents[:, 2:] / 2 - margin
+    return functional.relu(torch.maximum(horizontal, vertical))
+
+
+def shape_loss(logits: Tensor, occupied: Tensor) -> tuple[Tensor, Tensor]:
+    """Return the loss of logits, and the mean soft intersection over union.
+
+    The loss is one minus the soft intersection over union (Rahman and Wang, 2016), which is what
+    counts, and the cross entropy, which has a gradient from the first step on.
+
+    Args:
+        logits: float32 (n, voxels).
+        occupied: 0 or 1, float32 (n, voxels).
+    """
+    likely = torch.sigmoid(logits)
+    common = (likely * occupied).sum(dim=1)
+    union = likely.sum(dim=1) + occupied.sum(dim=1) - common
+    overlap = (common / (union + 1)).mean()
+    entropy = functional.binary_cross_entropy_with_logits(
+        logits, occupied, pos_weight=torch.tensor(OCCUPIED)
+    )
+    return 1 - overlap + ENTROPY * entropy, overlap
