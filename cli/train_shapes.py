@@ -15,9 +15,7 @@ def train_shapes(
         list[str], typer.Argument(help=SOURCE_HELP + TOWN_HELP, metavar="DRIVE[@FIRST:LAST]...")
     ],
     seed: Annotated[int, typer.Option(help="Random seed of the training.")] = 0,
-    epochs: Annotated[
-        int, typer.Option(min=1, help="Number of passes over the training set.")
-    ] = 6,
+    epochs: Annotated[int, typer.Option(min=1, help="Number of passes over the training set.")] = 6,
     runs: Annotated[
         Path, typer.Option(help="Folder for checkpoints and training histories.")
     ] = Path("runs"),
@@ -46,8 +44,9 @@ def train_shapes(
         from training.shapes.publishing import Facts, identity_of, train_and_publish
 
         extractor = load_extractor(folder)
-        titled = show(each_source(drives), len(drives), "Describing segments")
-        data, parts = shape_data(titled, extractor, seed)
+        loaded = each_source(drives)
+        numbers = show(range(len(drives)), len(drives), "Describing segments")
+        data, parts = shape_data((next(loaded) for _ in numbers), extractor, seed)
         facts = Facts(parts, license_name, seed, epochs)
         checkpoints = runs / f"shapes-{extractor.manifest.name}-{seed}"
         if not resume:

@@ -93,9 +93,7 @@ class Manifest:
             "dimension": self.dimension,
             "quantiser": self.quantizer.as_dict(),
             "preprocessing": self.preprocessing,
-            "files": {
-                name: sha for name, sha in self.files.items() if name not in BESIDE
-            },
+            "files": {name: sha for name, sha in self.files.items() if name not in BESIDE},
             "standardisation": self.standardization,
         }
         text = json.dumps(decisive, sort_keys=True, separators=(",", ":"))

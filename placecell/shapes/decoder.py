@@ -117,7 +117,9 @@ class ShapeDecoder:
         counts = np.zeros(count) if stored.counts is None else stored.counts
         inputs = {
             "descriptor": self.manifest.quantizer.decode(np.ascontiguousarray(stored.codes)),
-            "offset": offsets.astype(np.float32),
+            "offset": np.stack([np.hypot(*offsets[:, :2].T), offsets[:, 2]], axis=1).astype(
+                np.float32
+            ),
             "bearing": bearings_of(-offsets).astype(np.float32),
             "extents": extents.astype(np.float32),
             "points": counts.astype(np.float32),

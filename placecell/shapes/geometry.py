@@ -32,7 +32,7 @@ def points_of(shapes: Shapes) -> tuple[Float32, Int64]:
         ascending.
     """
     owners, *cells = np.nonzero(shapes.occupancy)
-    placed = _placed(shapes, owners, np.stack(cells, axis=1) + 0.5)
+    placed = _placed(shapes, owners, np.stack(cells, axis=1).astype(np.float64) + 0.5)
     return placed.astype(np.float32), owners.astype(np.int64)
 
 

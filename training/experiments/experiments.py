@@ -73,7 +73,9 @@ def run_experiments(
         """Train and publish a model unless its folder exists already."""
         folder = output / "models" / one.name
         if not (folder / MANIFEST_FILE).exists():
-            again = retraining(["train", one.method], training_sources, license_name, one.seed, *one.options())
+            again = retraining(
+                ["train", one.method], training_sources, license_name, one.seed, *one.options()
+            )
             make(folder, data.stating(seed=one.seed, command=command if one.ablation else again))
 
     eigenvalue = Training("eigenvalue", "", 0)

@@ -132,14 +132,14 @@ def extracted(
     descriptors = extractor.describe(segments, neighborhood)
     return ShapeData(
         codes=extractor.manifest.quantizer.encode(descriptors),
-        offsets=np.stack(
-            [np.hypot(relative[:, 0], relative[:, 1]), relative[:, 2]], axis=1
-        ).astype(np.float32),
+        offsets=np.stack([np.hypot(relative[:, 0], relative[:, 1]), relative[:, 2]], axis=1).astype(
+            np.float32
+        ),
         counts=segments.counts,
         bearings=bearings.astype(np.float32),
         extents=np.stack(boxes, axis=1),
         grids=packed_grids(segments, extractor),
-        centers=(low + high) / 2,
+        centers=(low + high) * np.float32(0.5),
         groups=groups,
     )
 
@@ -152,7 +152,7 @@ def corners_of(points: Float32, segments: Segments) -> tuple[Float32, Float32]:
 def boxes_of(points: Float32, segments: Segments) -> UInt8:
     """Return the box of each segment as a map stores it: decimeters, rounded up, 1 to 255."""
     low, high = corners_of(points, segments)
-    return np.ceil((high - low) * 10).clip(1, 255).astype(np.uint8)
+    return np.asarray(np.ceil((high - low) * 10).clip(1, 255), np.uint8)
 
 
 def packed_grids(segments: Segments, extractor: Extractor) -> UInt8:

@@ -86,7 +86,7 @@ def learn_shapes(
 ) -> None:
     """Train the network in place."""
     steps = max(1, len(training) // recipe.descent.batch)
-    count = len(network.cells)
+    count = network.basis.out_features
 
     def draw(_: int, random: np.random.Generator) -> Iterator[ShapeBatch]:
         for rows in np.array_split(random.permutation(len(training)), steps):
@@ -131,7 +131,7 @@ def batch_of(
         voxels: indices of the voxels, int64 (voxels,); None: all.
     """
     drawn = np.zeros(len(rows), np.int64) if frames is None else frames
-    extents = data.extents[rows, drawn].astype(np.float32) / 10
+    extents = data.extents[rows, drawn].astype(np.float32) / np.float32(10)
     points = data.counts[rows].astype(np.float32)
     if missing is not None:
         extents[missing[0]] = 0
@@ -153,16 +153,14 @@ def batch_of(
 
 
 @torch.no_grad()
-def overlaps_by_threshold(
-    network: ShapeNetwork, quantizer: Quantizer, data: ShapeData
-) -> Float64:
+def overlaps_by_threshold(network: ShapeNetwork, quantizer: Quantizer, data: ShapeData) -> Float64:
     """Return the intersection over union by segment and threshold, float64 (n, thresholds)."""
     network.eval()
     parts = []
     for first in range(0, len(data), 64):
         rows = np.arange(first, min(first + 64, len(data)))
-        batch = batch_of(data, quantizer, rows, len(network.cells))
-        logits = network.at(None, *batch.inputs)[0].numpy()
+        batch = batch_of(data, quantizer, rows, network.basis.out_features)
+        logits = network(*batch.inputs)[0].flatten(1).numpy()
         occupied = batch.occupied.numpy() > 0
         columns = []
         for threshold in THRESHOLDS:

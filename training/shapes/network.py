@@ -5,6 +5,8 @@ the number of points. Its features weight a basis of grids, and profiles along t
 known along the map's axes; voxels outside of it are excluded by its turned sides.
 """
 
+import math
+from collections.abc import Sequence
 from itertools import pairwise
 
 import torch
@@ -36,8 +38,6 @@ class ShapeNetwork(nn.Module):
     """Network of the shape decoder."""
 
     own: Tensor
-    places: Tensor
-    cells: Tensor
 
     def __init__(self, own: Float32, grid: tuple[int, int, int], voxel: float) -> None:
         """Create the network.
@@ -50,10 +50,6 @@ class ShapeNetwork(nn.Module):
         super().__init__()
         self.grid, self.voxel = grid, voxel
         self.register_buffer("own", torch.from_numpy(own))
-        cells = torch.cartesian_prod(*(torch.arange(size) for size in grid))
-        middle = (torch.tensor(grid) - 1) / 2
-        self.register_buffer("cells", cells, persistent=False)
-        self.register_buffer("places", (cells - middle) * voxel, persistent=False)
         widths = [own.shape[1] + FEATURES, HIDDEN, HIDDEN]
         layers: list[nn.Module] = []
         for before, after in pairwise(widths):
@@ -64,7 +60,7 @@ class ShapeNetwork(nn.Module):
         nn.init.zeros_(self.box.weight)
         nn.init.zeros_(self.box.bias)
         self.weights = nn.Linear(HIDDEN, BASIS)
-        self.basis = nn.Linear(BASIS, len(cells))
+        self.basis = nn.Linear(BASIS, math.prod(grid))
         nn.init.normal_(self.basis.weight, std=0.02)
         nn.init.constant_(self.basis.bias, EMPTY)
         self.profiles = nn.ModuleList(nn.Linear(HIDDEN, size) for size in grid)
@@ -83,8 +79,7 @@ class ShapeNetwork(nn.Module):
             points: number of points, float32 (n,); 0: unknown.
         """
         given = descriptor, offset, bearing, extents, points
-        logits, center = self.at(None, *given)
-        return logits.reshape(-1, *self.grid), center
+        return self.at(None, *given)
 
     def at(
         self,
@@ -98,7 +93,7 @@ class ShapeNetwork(nn.Module):
         """Return logits of some voxels, float32 (n, voxels), and the centers; see `forward`.
 
         Args:
-            voxels: indices of voxels, int64 (voxels,); None: all.
+            voxels: indices of voxels, int64 (voxels,); None: all, as (n, x, y, z).
             descriptor: see `forward`, as all others.
         """
         cosine, sine = torch.cos(bearing)[:, None], torch.sin(bearing)[:, None]
@@ -112,18 +107,34 @@ class ShapeNetwork(nn.Module):
                 dim=1,
             )
         )
-        weight, bias, places, cells = self.basis.weight, self.basis.bias, self.places, self.cells
+        weight: Tensor = self.basis.weight
+        bias: Tensor = self.basis.bias
         if voxels is not None:
             weight, bias = weight[voxels], bias[voxels]
-            places, cells = places[voxels], cells[voxels]
         logits = functional.linear(self.weights(features), weight, bias)
+        if voxels is None:
+            logits = logits.reshape(-1, *self.grid)
         for axis, profile in enumerate(self.profiles):
-            logits = logits + profile(features)[:, cells[:, axis]]
-        shift = self.box(features)
-        beyond = outside(places, cosine, sine, extents, shift, self.voxel / 2)
+            logits = logits + self._along(axis, profile(features), voxels)
+        places = [
+            self._along(axis, ((torch.arange(size) - (size - 1) / 2) * self.voxel)[None], voxels)
+            for axis, size in enumerate(self.grid)
+        ]
+        ones = (1,) * (logits.dim() - 1)
+        sides = [each.reshape(-1, *ones) for each in (cosine, sine, *extents.T)]
+        shifts = [each.reshape(-1, *ones) for each in self.box(features).T]
+        beyond = outside(places, sides, shifts, self.voxel / 2)
         rate, most = OUTSIDE
-        logits = logits.float() - rate * beyond.clamp(max=most) * known
+        logits = logits.float() - rate * beyond.clamp(max=most) * known.reshape(-1, *ones)
         return logits, self.center(features).float()
+
+    def _along(self, axis: int, values: Tensor, voxels: Tensor | None) -> Tensor:
+        """Return values along an axis of the grid, (n, size), at voxels, to be broadcast."""
+        if voxels is None:
+            shape = [1, 1, 1]
+            shape[axis] = self.grid[axis]
+            return values.reshape(-1, *shape)
+        return values[:, voxels // math.prod(self.grid[axis + 1 :]) % self.grid[axis]]
 
 
 def inputs(
@@ -155,27 +166,25 @@ def inputs(
 
 
 def outside(
-    places: Tensor, cosine: Tensor, sine: Tensor, extents: Tensor, shift: Tensor, margin: float
+    places: Sequence[Tensor], sides: Sequence[Tensor], shifts: Sequence[Tensor], margin: float
 ) -> Tensor:
-    """Return how far each voxel's center is outside of the box, float32 (n, voxels), meters.
+    """Return how far each voxel's center is outside of the box, float32, meters.
+
+    All tensors are broadcast: segments along the first dimension, voxels along the others.
 
     Args:
-        places: centers of voxels relative to the grid's center, float32 (voxels, 3), meters.
-        cosine: cosine of the bearing, float32 (n, 1).
-        sine: sine of the bearing, float32 (n, 1).
-        extents: box along the map's axes, float32 (n, 3), meters.
-        shift: horizontal shift of the box's center in meters, and change of the margin in
-            `margin`s, float32 (n, 3).
+        places: x, y and z of the voxels' centers relative to the grid's center, meters.
+        sides: cosine and sine of the bearing, and the box along the map's axes, meters.
+        shifts: horizontal shift of the box's center, meters, and change of the margin, margins.
         margin: half a voxel, meters: a voxel is occupied if the box touches it.
     """
-    x, y, z = places.T
-    east = x * cosine - y * sine - shift[:, :1]
-    north = x * sine + y * cosine - shift[:, 1:2]
-    wider = margin * (1 + shift[:, 2:])
-    horizontal = torch.maximum(
-        east.abs() - extents[:, :1] / 2, north.abs() - extents[:, 1:2] / 2
-    ) - wider
-    vertical = z.abs() - extents[:, 2:] / 2 - margin
+    x, y, z = places
+    cosine, sine, length, width, height = sides
+    shift_x, shift_y, wider = shifts
+    east = (x * cosine - y * sine - shift_x).abs() - length / 2
+    north = (x * sine + y * cosine - shift_y).abs() - width / 2
+    horizontal = torch.maximum(east, north) - margin * (1 + wider)
+    vertical = z.abs() - height / 2 - margin
     return functional.relu(torch.maximum(horizontal, vertical))
 
 

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -110,7 +111,7 @@ def train_and_publish(
     learn_shapes(network, quantizer, training, validation, run, recipe)
     overlaps = overlaps_by_threshold(network, quantizer, validation).mean(axis=0)
     with torch.no_grad():
-        network.basis.bias -= float(THRESHOLDS[overlaps.argmax()])
+        network.basis.bias.sub_(float(THRESHOLDS[overlaps.argmax()]))
     size = write_decoder(folder, network, manifest.dimension)
     shape = {
         "sources": [
@@ -164,9 +165,11 @@ def export_decoder(network: ShapeNetwork, dimension: int, file: Path) -> None:
 
     examples = tuple(torch.ones((2, *shape)) for shape in ((dimension,), (2,), (), (3,), ()))
     names = ["descriptor", "offset", "bearing", "extents", "points"]
-    full = file.with_suffix(".float32")
-    try:
+    with tempfile.TemporaryDirectory() as made:
+        full = Path(made) / "full.onnx"
         to_onnx(network, examples, names, ["occupancy", "center"], full)
+        model = onnx.load(full)
+        # The quantization turns matrices and leaves their stated shapes.
+        del model.graph.value_info[:]
+        onnx.save(model, full)
         quantize_dynamic(full, file, per_channel=True, weight_type=QuantType.QInt8)
-    finally:
-        full.unlink(missing_ok=True)
