@@ -30,7 +30,7 @@ from service.api.routes import (
     versions,
 )
 from service.api.routes.annotations import anchors, mirrors
-from service.api.routes.clouds import exports, scans
+from service.api.routes.clouds import exports, scans, shapes
 from service.api.routes.live import events, robots
 from service.api.state import State, open_state
 from service.core.settings import Settings
@@ -61,6 +61,7 @@ ROUTES = (
     coverage,
     maps,
     exports,
+    shapes,
     uploads,
     segments,
     versions,

@@ -14,6 +14,7 @@ from cli.maps.optimize import optimize
 from cli.maps.prune import prune
 from cli.maps.pull import pull
 from cli.maps.push import push
+from cli.maps.render import render
 from cli.maps.reset_ids import reset_ids
 from cli.maps.restore import restore
 from cli.maps.show import show
@@ -33,6 +34,7 @@ READ, WRITE, COMBINE, MAINTAIN = "Read", "Write", "Combine", "Maintain"
 maps.command("list", rich_help_panel=READ)(list_maps)
 maps.command(rich_help_panel=READ)(show)
 maps.command(rich_help_panel=READ)(pull)
+maps.command(rich_help_panel=READ)(render)
 maps.command(rich_help_panel=READ)(diff)
 maps.command(rich_help_panel=WRITE)(push)
 maps.command(rich_help_panel=WRITE)(uploads)

@@ -54,6 +54,7 @@ from placecell_client.results.merge import Merge
 from placecell_client.results.optimization import Optimization
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
+from placecell_client.results.shapes import SegmentShape
 
 T = TypeVar("T")
 AsyncClientT = TypeVar("AsyncClientT", bound="AsyncClient")
@@ -352,6 +353,10 @@ class AsyncClient(BaseClient):
         """See `Client.optimize_map`."""
         call = self._calls.optimize_map(name, dry_run, frames, if_match, timeout)
         return await self._send(call)
+
+    async def segment_shape(self, name: str, segment: int) -> SegmentShape:
+        """See `Client.segment_shape`."""
+        return await self._send(self._calls.segment_shape(name, segment))
 
     async def compact_map(self, name: str, keep: int = 1) -> int:
         """See `Client.compact_map`."""

@@ -52,6 +52,7 @@ from placecell_client.results.merge import Merge
 from placecell_client.results.optimization import Optimization
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
+from placecell_client.results.shapes import SegmentShape
 
 T = TypeVar("T")
 ClientT = TypeVar("ClientT", bound="Client")
@@ -663,6 +664,17 @@ class Client(BaseClient):
         """
         call = self._calls.optimize_map(name, dry_run, frames, if_match, timeout)
         return self._send(call)
+
+    def segment_shape(self, name: str, segment: int) -> SegmentShape:
+        """Return what a stored segment looks like, decoded from its code.
+
+        A map whose model has no decoder gives a `ServiceError` with status 409.
+
+        Args:
+            name: Name of the map.
+            segment: Id of the segment.
+        """
+        return self._send(self._calls.segment_shape(name, segment))
 
     def compact_map(self, name: str, keep: int = 1) -> int:
         """Drop all but the newest `keep` versions; return the oldest kept sequence number."""

@@ -4,18 +4,27 @@ from pathlib import Path
 from typing import Any
 
 from evaluation.segments.classes import class_figures
+from evaluation.segments.shapes import shape_figures
 from placecell.core.types import UInt8
 from placecell.descriptors.extractor import load_extractor
 from placecell.segmentation.recording import Recording
+from placecell.shapes.decoder import load_shape_decoder
 
 
-def evaluate_recording(recording: Recording, labels: UInt8 | None, folder: Path) -> dict[str, Any]:
+def evaluate_recording(
+    recording: Recording,
+    labels: UInt8 | None,
+    folder: Path,
+    training: Recording | None = None,
+) -> dict[str, Any]:
     """Return the figures of a recording's segments.
 
     Args:
         recording: segments.
         labels: true class index of each segment (`class_figures`); None without labels.
         folder: folder of the model.
+        training: segments that the model was trained on, for the baseline of the shapes; None: no
+            baseline.
     """
     extractor = load_extractor(folder)
     manifest = extractor.manifest
@@ -32,6 +41,8 @@ def evaluate_recording(recording: Recording, labels: UInt8 | None, folder: Path)
         "bytes": {
             "code": manifest.code_bytes,
             "classes": 0 if described.classes is None else 1,
+            "extents": 3,
         },
         **class_figures(labels, described.classes),
+        **shape_figures(recording, extractor, load_shape_decoder(folder, manifest), training),
     }

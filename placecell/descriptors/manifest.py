@@ -39,7 +39,7 @@ CALIBRATION_FILE = "calibration.json"
 JSON_KEYS = {"quantizer": "quantiser", "standardization": "standardisation"}
 """Keys of `manifest.json` that differ from the attribute's name, kept for published models."""
 
-OPTIONAL_KEYS = frozenset({"shape"})
+OPTIONAL_KEYS = frozenset({"shape", "classes"})
 """Keys that are left out if they are empty, so that earlier versions read the manifest."""
 
 

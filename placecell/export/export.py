@@ -7,6 +7,7 @@ import numpy as np
 
 from placecell.core.files import written_whole
 from placecell.core.geodesy import GeoAnchor
+from placecell.core.types import UInt8
 from placecell.export.clouds import write_las, write_pcd, write_ply
 from placecell.export.content import ExportContent, class_colors, colors, read_recording
 from placecell.export.geo import write_geojson
@@ -60,6 +61,15 @@ def export(
     return content
 
 
+def shades_of(content: ExportContent, color: ColorBy) -> UInt8:
+    """Return the color of each segment, uint8 (segments, 3)."""
+    if color == "class":
+        known = content.classes
+        return class_colors(np.zeros(len(content.ids), np.uint8) if known is None else known)
+    numbers = {"id": content.ids, "robot": content.robot, "group": content.groups}[color]
+    return colors(np.asarray(numbers))
+
+
 def write_content(
     content: ExportContent, target: Target, file: Path, color: ColorBy, anchor: GeoAnchor | None
 ) -> None:
@@ -75,12 +85,7 @@ def write_content(
     Raises:
         ValueError: a segment is too far from the anchor.
     """
-    if color == "class":
-        known = content.classes
-        shades = class_colors(np.zeros(len(content.ids), np.uint8) if known is None else known)
-    else:
-        numbers = {"id": content.ids, "robot": content.robot, "group": content.groups}[color]
-        shades = colors(np.asarray(numbers))
+    shades = shades_of(content, color)
     if target == "geojson":
         assert anchor is not None
         write_geojson(content, shades, file, anchor)

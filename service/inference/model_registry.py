@@ -10,6 +10,7 @@ from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import FILE, Manifest, ModelError
 from placecell.descriptors.pair_classifier import PairClassifier, load_pair_classifier
 from placecell.localization.confidence import NAME, Confidence, shipped
+from placecell.shapes.decoder import ShapeDecoder, load_shape_decoder
 from service.core.metrics import Metrics
 from service.core.problems import Problem
 from service.core.settings import Settings
@@ -26,11 +27,13 @@ class Model:
         describer: runs the model.
         classifier: pair classifier; None if the model has none.
         confidence: gives the probability that a pose found from its descriptors is right.
+        shapes: decodes shapes from its codes; None if the model has no decoder.
     """
 
     describer: Describer
     classifier: PairClassifier | None
     confidence: Confidence
+    shapes: ShapeDecoder | None = None
 
     @property
     def manifest(self) -> Manifest:
@@ -135,6 +138,7 @@ class Models:
             Describer(extractor, self._settings.limits, self._metrics),
             load_pair_classifier(folder, extractor.manifest),
             _confidence_of(folder, extractor.manifest),
+            load_shape_decoder(folder, extractor.manifest),
         )
 
     def _tell(self) -> None:

@@ -2,7 +2,9 @@
 
 import hashlib
 import json
+import re
 import tempfile
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +19,6 @@ from placecell.core.types import Float32
 from placecell.descriptors.extractor import MODEL_FILE
 from placecell.descriptors.manifest import SHAPE_FILE, Manifest, file_hash
 from training.data.training_set import Source
-from training.export.card import write_card
 from training.export.publishing import SPLIT_SEED, VALIDATION_SHARE, retraining
 from training.methods.run import Run
 from training.shapes.data import ShapeData
@@ -28,6 +29,22 @@ from training.shapes.learning import (
     overlaps_by_threshold,
 )
 from training.shapes.network import ShapeNetwork
+
+HEADING = "## Shapes"
+SECTION = (
+    HEADING
+    + """
+
+`shape.onnx` ({size:.1f} MB) decodes the occupancy grid of a segment from its stored code. It
+learned from {segments:,} segments of the drives above in {minutes:.0f} minutes of processor time.
+The license is the same.
+{held_out:,} segments of groups that it did not see: intersection over union {iou:.3f}
+(docs/results/segments.md has other drives and the baseline).
+
+{command}
+"""
+)
+"""Section of the model card about the decoder."""
 
 VALIDATED = 2000
 """Largest number of validation segments that are measured."""
@@ -131,8 +148,24 @@ def train_and_publish(
     hashes = manifest.files | {SHAPE_FILE: file_hash(folder / SHAPE_FILE)}
     published = replace(manifest, files=hashes, shape=shape)
     published.save(folder)
-    write_card(folder, published)
+    write_section(folder / "README.md", published)
     return published
+
+
+def write_section(card: Path, manifest: Manifest) -> None:
+    """Write the section about the decoder into the model's card; nothing else of it changes."""
+    shape = manifest.shape
+    section = SECTION.format(
+        segments=shape["segments"],
+        held_out=shape["validation_segments"],
+        iou=shape["validation_iou"],
+        minutes=shape["cpu_seconds"] / 60,
+        size=shape["bytes"] / 1e6,
+        command=textwrap.indent(shape["command"], "    "),
+    )
+    text = re.sub(rf"{HEADING}\n.*?(?=\n## |\Z)", "", card.read_text(), flags=re.S)
+    before, heading, after = text.partition("## Train this model again")
+    card.write_text(f"{before.rstrip()}\n\n{section}\n{heading}{after}")
 
 
 def write_decoder(folder: Path, network: ShapeNetwork, dimension: int) -> int:

@@ -45,6 +45,7 @@ from placecell_client.results.merge import Merge, merge_of
 from placecell_client.results.optimization import Optimization, optimization_of
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
+from placecell_client.results.shapes import SegmentShape
 
 
 def info(answer: HttpResponse) -> Info:
@@ -270,6 +271,20 @@ def alignment(answer: HttpResponse) -> MapAlignment:
 def optimization(answer: HttpResponse) -> Optimization:
     """Read the response of `POST /maps/{map}/optimize`."""
     return optimization_of(_content(answer))
+
+
+def segment_shape(answer: HttpResponse) -> SegmentShape:
+    """Read the response of `GET /maps/{map}/segments/{id}/shape`."""
+    content = _content(answer)
+    told = content["class"]
+    return SegmentShape(
+        id=content["id"],
+        model_id=content["model_id"],
+        bytes=content["bytes"],
+        voxel_m=content["voxel_m"],
+        points=np.array(content["points"], np.float64).reshape(-1, 3),
+        class_name=None if told is None else told["name"],
+    )
 
 
 def merge(answer: HttpResponse) -> Merge:

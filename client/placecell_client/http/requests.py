@@ -52,6 +52,7 @@ from placecell_client.results.merge import Merge
 from placecell_client.results.optimization import Optimization
 from placecell_client.results.robots import RobotState
 from placecell_client.results.scans import AddedScan, KeyScope, ScannedFile
+from placecell_client.results.shapes import SegmentShape
 
 T = TypeVar("T")
 
@@ -437,6 +438,10 @@ class Calls:
         path = _path(name, "/optimize", **options)
         call = self._tied("POST", path, parsing.optimization, if_match)
         return replace(call, repeatable=call.repeatable or dry_run, timeout=timeout)
+
+    def segment_shape(self, name: str, segment: int) -> Call[SegmentShape]:
+        """Build `GET /maps/{map}/segments/{id}/shape`."""
+        return Call("GET", _path(name, f"/segments/{segment}/shape"), parsing.segment_shape)
 
     def compact_map(self, name: str, keep: int) -> Call[int]:
         """Build `POST /maps/{map}/compact`."""
