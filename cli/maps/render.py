@@ -36,7 +36,10 @@ def render(
     ] = None,
     color: Annotated[
         ColorBy | None,
-        typer.Option(help="What decides the color. (default: class if the map has it, else id)"),
+        typer.Option(
+            help="Number of a segment that decides its color. (default: class if the map has it, "
+            "else id)"
+        ),
     ] = None,
     url: Url = LOCAL,
 ) -> None:
