@@ -178,7 +178,9 @@ class PostgresDatabase:
         """Run writes as one transaction, durable on return.
 
         If the connection is lost, they run again on another one. If that was during the commit, its
-        outcome is not known; the next run is told so and finds out.
+        outcome is not known; the next run is told so and finds out. Writes that were stopped for
+        longer than IDLE_SECONDS do not run again: their robot may have repeated them at another
+        service, and changed the same segments since.
 
         Args:
             work: the writes.
@@ -203,7 +205,7 @@ class PostgresDatabase:
                 unsure = unsure or (attempt.is_committing and is_lost(error))
                 if not (is_lost(error) or (is_busy(error) and (unsure or _is_conflict(error)))):
                     raise failed from error
-            if time.monotonic() > until:
+            if attempt.was_stopped or time.monotonic() > until:
                 raise _unsure(failed) if unsure else failed
             time.sleep(PAUSE_SECONDS)
 
@@ -242,6 +244,7 @@ class PostgresDatabase:
     ) -> Result:
         seconds = STATEMENT_SECONDS if seconds is None else seconds
         with self._pool.connection() as connection:
+            attempt.begun = time.monotonic()
             try:
                 rows = PostgresRows(connection, self._watchdog, seconds)
                 result = work(rows, unsure)
@@ -272,6 +275,12 @@ class _Attempt:
     """State of a run of a transaction."""
 
     is_committing = False
+    begun: float | None = None
+
+    @property
+    def was_stopped(self) -> bool:
+        """Whether the run had a connection for longer than a write may be idle."""
+        return self.begun is not None and time.monotonic() - self.begun > IDLE_SECONDS
 
 
 def _connecting(note: Callable[[psycopg.Error | None], None]) -> type[Connection]:

@@ -86,10 +86,10 @@ def test_write_whose_answer_was_lost_is_stored_once(
     assert store.heads() == []
 
 
-def test_write_that_the_server_ended_for_idleness_is_repeated(
+def test_write_of_a_stopped_service_is_not_repeated(
     store: PostgresStore, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The service was stopped within a write, so the server freed the map for the others."""
+    """The server freed the map for the others: the robot may have repeated its edit there."""
     head = store.create("yard", b"file", NOTE, 0)
     append, calls = operations.append_commit, list[Any]()
 
@@ -101,8 +101,11 @@ def test_write_that_the_server_ended_for_idleness_is_repeated(
         return append(rows, *arguments, **named)
 
     monkeypatch.setattr("service.maps.postgres.store.append_commit", slow)
-    assert store.append(head, b"one", NOTE, 0).sequence == 2
-    assert len(calls) == 2
+    monkeypatch.setattr(database, "IDLE_SECONDS", 0.3)
+    with pytest.raises(StoreError):
+        store.append(head, b"one", NOTE, 0)
+    assert len(calls) == 1
+    assert store.heads()[0].sequence == 1
 
 
 def test_import_may_take_longer_than_other_writes(
