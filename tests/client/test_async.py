@@ -70,7 +70,7 @@ def test_both_clients_have_the_same_methods() -> None:
         "key", "scan_file", "add_scan", "version_changes", "export",
         "coverage", "tags", "set_tags", "anchor", "set_anchor", "delete_anchor", "fit_anchor",
         "anchors", "named_anchor", "set_named_anchor", "delete_named_anchor", "events",
-        "mirror", "set_mirror", "delete_mirror", "optimize_map",
+        "mirror", "set_mirror", "delete_mirror", "optimize_map", "segment_shape",
     }  # fmt: skip
 
 

@@ -11,6 +11,7 @@ import psycopg
 from psycopg import conninfo
 from psycopg_pool import ConnectionPool, PoolTimeout
 
+from placecell.core.cancellation import current
 from service.maps.postgres.errors import is_busy, is_lost, translated
 from service.maps.postgres.tables import SCHEMA
 from service.maps.postgres.watchdog import Watchdog
@@ -208,6 +209,8 @@ class PostgresDatabase:
             if attempt.was_stopped or time.monotonic() > until:
                 raise _unsure(failed) if unsure else failed
             time.sleep(PAUSE_SECONDS)
+            if current().is_cancelled:  # nobody waits for the answer, so nobody repeats it later
+                raise _unsure(failed) if unsure else failed
 
     @contextmanager
     def snapshot(self) -> Iterator[Rows]:
