@@ -179,9 +179,11 @@ class PostgresDatabase:
         """Run writes as one transaction, durable on return.
 
         If the connection is lost, they run again on another one. If that was during the commit, its
-        outcome is not known; the next run is told so and finds out. Writes that were stopped for
-        longer than IDLE_SECONDS do not run again: their robot may have repeated them at another
-        service, and changed the same segments since.
+        outcome is not known; the next run is told so and finds out.
+
+        They are not committed if nobody waits for the answer any more: the robot may have repeated
+        the write at another service, and changed the same segments since. A robot that gives up
+        later than this check cannot overtake the commit, because the writes hold the map's lock.
 
         Args:
             work: the writes.
@@ -190,6 +192,7 @@ class PostgresDatabase:
 
         Raises:
             StoreError: nothing was changed; unless its message says that this is not known.
+            Cancelled: the request is late, or its client disconnected.
         """
         until = time.monotonic() + RETRY_SECONDS
         unsure = False
@@ -206,11 +209,9 @@ class PostgresDatabase:
                 unsure = unsure or (attempt.is_committing and is_lost(error))
                 if not (is_lost(error) or (is_busy(error) and (unsure or _is_conflict(error)))):
                     raise failed from error
-            if attempt.was_stopped or time.monotonic() > until:
+            if time.monotonic() > until:
                 raise _unsure(failed) if unsure else failed
             time.sleep(PAUSE_SECONDS)
-            if current().is_cancelled:  # nobody waits for the answer, so nobody repeats it later
-                raise _unsure(failed) if unsure else failed
 
     @contextmanager
     def snapshot(self) -> Iterator[Rows]:
@@ -247,10 +248,10 @@ class PostgresDatabase:
     ) -> Result:
         seconds = STATEMENT_SECONDS if seconds is None else seconds
         with self._pool.connection() as connection:
-            attempt.begun = time.monotonic()
             try:
                 rows = PostgresRows(connection, self._watchdog, seconds)
                 result = work(rows, unsure)
+                current().check()
                 attempt.is_committing = True
                 with (
                     _noticing(connection) as notices,
@@ -278,12 +279,6 @@ class _Attempt:
     """State of a run of a transaction."""
 
     is_committing = False
-    begun: float | None = None
-
-    @property
-    def was_stopped(self) -> bool:
-        """Whether the run had a connection for longer than a write may be idle."""
-        return self.begun is not None and time.monotonic() - self.begun > IDLE_SECONDS
 
 
 def _connecting(note: Callable[[psycopg.Error | None], None]) -> type[Connection]:

@@ -14,6 +14,7 @@ from typing import Any
 import psycopg
 import pytest
 
+from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from service.core.settings import Settings
 from service.engine import StartError
 from service.maps.postgres import database, watchdog
@@ -86,10 +87,10 @@ def test_write_whose_answer_was_lost_is_stored_once(
     assert store.heads() == []
 
 
-def test_write_of_a_stopped_service_is_not_repeated(
+def test_write_that_the_server_ended_for_idleness_is_repeated(
     store: PostgresStore, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The server freed the map for the others: the robot may have repeated its edit there."""
+    """The service was stopped within a write, so the server freed the map for the others."""
     head = store.create("yard", b"file", NOTE, 0)
     append, calls = operations.append_commit, list[Any]()
 
@@ -101,11 +102,33 @@ def test_write_of_a_stopped_service_is_not_repeated(
         return append(rows, *arguments, **named)
 
     monkeypatch.setattr("service.maps.postgres.store.append_commit", slow)
-    monkeypatch.setattr(database, "IDLE_SECONDS", 0.3)
-    with pytest.raises(StoreError):
+    assert store.append(head, b"one", NOTE, 0).sequence == 2
+    assert len(calls) == 2
+
+
+@pytest.mark.parametrize("stopped", [False, True])
+def test_write_that_nobody_waits_for_any_more_is_not_committed(
+    store: PostgresStore, monkeypatch: pytest.MonkeyPatch, stopped: bool
+) -> None:
+    """The robot may have repeated its edit at another service, and edited on."""
+    head = store.create("yard", b"file", NOTE, 0)
+    append, token = operations.append_commit, CancelToken()
+
+    def slow(rows: Any, *arguments: Any, **named: Any) -> MapHead:
+        if stopped and not token.is_cancelled:
+            token.cancel()
+            rows.execute("SET LOCAL idle_in_transaction_session_timeout = '50ms'")
+            time.sleep(0.4)
+        token.cancel()
+        return append(rows, *arguments, **named)
+
+    monkeypatch.setattr("service.maps.postgres.store.append_commit", slow)
+    with cancelled_by(token), pytest.raises(Cancelled):
         store.append(head, b"one", NOTE, 0)
-    assert len(calls) == 1
-    assert store.heads()[0].sequence == 1
+    assert [each.sequence for each in store.heads()] == [1]
+    # The map is free for the others.
+    monkeypatch.setattr("service.maps.postgres.store.append_commit", append)
+    assert store.append(head, b"two", NOTE, 0).sequence == 2
 
 
 def test_import_may_take_longer_than_other_writes(
