@@ -398,11 +398,10 @@ class Engine:
         if isinstance(seen, Descriptors):
             only = self.models.named(seen.model_id)
             selection = select_maps(self.maps, self.models, maps, only, principal, is_tagged)
-            query = query_of_codes(seen, selection, k, self.settings.limits, timing, rerank)
-        else:
-            selection = select_maps(self.maps, self.models, maps, None, principal, is_tagged)
-            query = query_of_scan(seen, self.models.default, selection, k, timing, rerank)
-        return replace(query, wanted=wanted)
+            limits = self.settings.limits
+            return query_of_codes(seen, selection, k, limits, timing, rerank, wanted)
+        selection = select_maps(self.maps, self.models, maps, None, principal, is_tagged)
+        return query_of_scan(seen, self.models.default, selection, k, timing, rerank, wanted)
 
     def matches(self, query: Query, descriptors: Sequence[Descriptors]) -> MatchResult:
         """Search the nearest segments: the third step of a match."""

@@ -66,7 +66,11 @@ class Extractor(ABC):
 
     @abstractmethod
     def prepare(
-        self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
+        self,
+        segments: Segments,
+        neighborhood: Float32 | None = None,
+        lap: Lap = unwatched,
+        classified: bool = True,
     ) -> Inputs:
         """Return the model's inputs.
 
@@ -74,6 +78,7 @@ class Extractor(ABC):
             segments: see `describe`.
             neighborhood: see `describe`.
             lap: receives the name of each step when it ends.
+            classified: also prepare what `classify` needs, if the model has a semantic head.
         """
 
     @abstractmethod
@@ -84,7 +89,7 @@ class Extractor(ABC):
         """Return class and probability of each row, uint8 (rows,); None without a head.
 
         Args:
-            inputs: result of `prepare`.
+            inputs: result of `prepare` with `classified`.
             descriptors: result of `infer` for these inputs.
         """
         del inputs, descriptors
@@ -115,10 +120,14 @@ class EigenvalueExtractor(Extractor):
         self._deviation = np.array(manifest.standardization["deviation"], dtype=np.float32)
 
     def prepare(
-        self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
+        self,
+        segments: Segments,
+        neighborhood: Float32 | None = None,
+        lap: Lap = unwatched,
+        classified: bool = True,
     ) -> Inputs:
         """Return the features, float32 (segments, 7)."""
-        del neighborhood, lap  # not used by these features
+        del neighborhood, lap, classified  # not used by these features
         return {"features": eigenvalue_descriptors(segments)}
 
     def infer(self, inputs: Inputs) -> Float32:
@@ -156,14 +165,18 @@ class OnnxExtractor(Extractor):
             raise ModelError(f"{folder / MODEL_FILE}: cannot be loaded ({error})") from error
 
     def prepare(
-        self, segments: Segments, neighborhood: Float32 | None = None, lap: Lap = unwatched
+        self,
+        segments: Segments,
+        neighborhood: Float32 | None = None,
+        lap: Lap = unwatched,
+        classified: bool = True,
     ) -> Inputs:
         """Return occupancy grids, extents and, if the model uses them, neighborhood and features.
 
         The features are those of the head for classes.
         """
         inputs = self._network_inputs(segments, neighborhood, lap)
-        if self._head is not None:
+        if self._head is not None and classified:
             inputs[CLASS_FEATURES] = class_features(segments)
             lap("voxelise")
         return inputs
@@ -188,9 +201,10 @@ class OnnxExtractor(Extractor):
 
     def infer(self, inputs: Inputs) -> Float32:
         """Return descriptors, float32 (rows, dimension), for any number of threads the same."""
+        network = network_inputs(inputs)
 
         def some(first: int, end: int) -> Float32:
-            return self._run({name: rows[first:end] for name, rows in inputs.items()})
+            return self._run({name: rows[first:end] for name, rows in network.items()})
 
         return self._in_batches(some, len(inputs["extents"]))
 
@@ -208,7 +222,7 @@ class OnnxExtractor(Extractor):
         return self._in_batches(some, len(segments))
 
     def classify(self, inputs: Inputs, descriptors: Float32) -> UInt8 | None:
-        """Return class and probability of each row, uint8 (rows,); None without a head."""
+        """Return class and probability of each row; see `Extractor.classify`."""
         if self._head is None:
             return None
         return self._head.classify(descriptors, inputs[CLASS_FEATURES])
@@ -232,11 +246,15 @@ class OnnxExtractor(Extractor):
     def _run(self, inputs: Inputs) -> Float32:
         session = self._idle.get()
         try:
-            network = {name: rows for name, rows in inputs.items() if name != CLASS_FEATURES}
-            descriptors: Float32 = session.run(["descriptor"], network)[0]
+            descriptors: Float32 = session.run(["descriptor"], inputs)[0]
         finally:
             self._idle.put(session)
         return descriptors
+
+
+def network_inputs(inputs: Inputs) -> Inputs:
+    """Return the inputs of the network alone, without those of the head for classes."""
+    return {name: rows for name, rows in inputs.items() if name != CLASS_FEATURES}
 
 
 def one_thread_session(file: Path) -> onnxruntime.InferenceSession:

@@ -12,7 +12,7 @@ from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
 from placecell.core.segment_classes import UNKNOWN, ClassFilter, class_names
 from placecell.core.types import Float32, Float64, Int8, Int64, UInt8
-from placecell.descriptors.extractor import Extractor, Inputs
+from placecell.descriptors.extractor import Extractor, Inputs, network_inputs
 from placecell.descriptors.manifest import Manifest
 from service.core.cost import NOTHING, Cost, check_cost, cost_of_describing
 from service.core.metrics import Metrics
@@ -47,6 +47,7 @@ class PreparedScan:
         errors: reason for each other segment, by index in the scan.
         cost: cost of describing the segments.
         dropped_points: points of the scan that were not finite and were left out.
+        classified: whether the request needs the classes of the segments, and the model tells them.
     """
 
     inputs: Inputs
@@ -55,6 +56,7 @@ class PreparedScan:
     errors: dict[int, SegmentError]
     cost: Cost
     dropped_points: int = 0
+    classified: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -149,13 +151,16 @@ class Describer:
         self._limits = limits
         self._batcher = Batcher(extractor, metrics, limits.batch)
 
-    def prepare(self, scan: Scan, timing: Timing, besides: Cost = NOTHING) -> PreparedScan:
+    def prepare(
+        self, scan: Scan, timing: Timing, besides: Cost = NOTHING, classified: bool = True
+    ) -> PreparedScan:
         """Prepare the network's inputs for the segments of a scan.
 
         Args:
             scan: the segments.
             timing: stopwatch of the request.
             besides: cost of the request's other work.
+            classified: whether the request needs the classes of the segments.
 
         Raises:
             Problem: 413 if there are too many segments or points, or they are too much work; 422 if
@@ -176,7 +181,7 @@ class Describer:
         timing.lap("decode")
         cost = cost_of_describing(segments.points, segments.counts, self.manifest.neighborhood)
         check_cost(besides + cost, self._limits.cost_seconds)
-        inputs = self._extractor.prepare(segments, lap=timing.lap)
+        inputs = self._extractor.prepare(segments, lap=timing.lap, classified=classified)
         timing.lap("voxelise")  # the rest of the steps before the network
         # Rounding must not move a centroid beyond the limit of the points' coordinates.
         centroids = np.clip(segments.centroids() + origin, -COORDINATE_LIMIT, COORDINATE_LIMIT)
@@ -187,6 +192,7 @@ class Describer:
             errors=errors,
             cost=cost,
             dropped_points=int(scan.dropped.sum()),
+            classified=classified and self._extractor.has_classes,
         )
 
     async def describe(self, prepared: PreparedScan, timing: Timing) -> Descriptors:
@@ -195,8 +201,8 @@ class Describer:
         Raises:
             Problem: 422 if no descriptor is finite.
         """
-        values = await self._batcher.infer(prepared.inputs, timing)
-        if not self._extractor.has_classes:
+        values = await self._batcher.infer(network_inputs(prepared.inputs), timing)
+        if not prepared.classified:
             return self._described(prepared, values, None)
         classes = await anyio.to_thread.run_sync(self._extractor.classify, prepared.inputs, values)
         timing.lap("infer")
@@ -204,8 +210,11 @@ class Describer:
 
     def describe_alone(self, prepared: PreparedScan) -> Descriptors:
         """Describe a prepared scan in this thread, without an event loop; raises as `describe`."""
-        values = self._extractor.infer(prepared.inputs)
-        return self._described(prepared, values, self._extractor.classify(prepared.inputs, values))
+        inputs, classes = prepared.inputs, None
+        values = self._extractor.infer(inputs)
+        if prepared.classified:
+            classes = self._extractor.classify(inputs, values)
+        return self._described(prepared, values, classes)
 
     def _described(
         self, prepared: PreparedScan, values: Float32, classes: UInt8 | None

@@ -158,6 +158,7 @@ def query_of_codes(
     limits: Limits,
     timing: Timing,
     rerank: bool = False,
+    wanted: ClassFilter | None = None,
 ) -> Query:
     """Build the query of a request that has descriptors.
 
@@ -168,6 +169,7 @@ def query_of_codes(
         limits: limits of the service.
         timing: stopwatch of the request.
         rerank: re-rank the candidates.
+        wanted: filter of the segments by class.
 
     Raises:
         Problem: 413 if the search is too much work.
@@ -176,7 +178,7 @@ def query_of_codes(
     is_reranked = rerank and given.centroids is not None
     searched_k = _searched_k(len(given), k, is_reranked)
     check_cost(_search_cost(len(given), selection, searched_k, is_reranked), limits.cost_seconds)
-    return Query(given.model_id, selection, k, given, (), searched_k, is_reranked)
+    return Query(given.model_id, selection, k, given, (), searched_k, is_reranked, wanted=wanted)
 
 
 def query_of_scan(
@@ -186,6 +188,7 @@ def query_of_scan(
     k: int,
     timing: Timing,
     rerank: bool = False,
+    wanted: ClassFilter | None = None,
 ) -> Query:
     """Build the query of a request that has segments: prepare them for each model.
 
@@ -196,6 +199,7 @@ def query_of_scan(
         k: largest number of candidates of a segment.
         timing: stopwatch of the request.
         rerank: re-rank the candidates.
+        wanted: filter of the segments by class.
 
     Raises:
         Problem: 413 if it is too much work, 422 if no segment can be described.
@@ -204,7 +208,9 @@ def query_of_scan(
     cost = _search_cost(len(scan), selection, searched_k, rerank)
     prepared = []
     for model, _ in selection.searched:
-        one = model.describer.prepare(scan, timing, besides=cost)
+        # Only a filter reads the classes of a query.
+        classified = wanted is not None
+        one = model.describer.prepare(scan, timing, cost, classified)
         prepared.append(one)
         cost += one.cost
     return Query(
@@ -216,6 +222,7 @@ def query_of_scan(
         searched_k=searched_k,
         is_reranked=rerank,
         sensor=np.median(scan.sensors, axis=0),
+        wanted=wanted,
     )
 
 

@@ -129,3 +129,21 @@ def test_filter_with_an_unknown_name_is_refused(
 ) -> None:
     with pytest.raises(ValueError, match=message):
         ClassFilter.of(classes, ignore)
+
+
+def test_only_a_filter_makes_a_search_classify_its_queries(
+    headed: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    def counted(self: EigenvalueExtractor, inputs: Inputs, descriptors: Float32) -> UInt8:
+        asked.append(len(descriptors))
+        return classify(self, inputs, descriptors)
+
+    monkeypatch.setattr(EigenvalueExtractor, "classify", counted)
+    body = request_of(CLOUDS)
+    assert headed.post("/match", json=body).status_code == 200
+    assert headed.post("/localize", json=body).status_code == 200
+    assert not asked
+    assert headed.post("/match", json=body | {"ignore": "movable"}).status_code == 200
+    assert asked == [len(CLOUDS)]
