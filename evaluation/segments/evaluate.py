@@ -44,5 +44,11 @@ def evaluate_recording(
             "extents": 3,
         },
         **class_figures(labels, described.classes),
-        **shape_figures(recording, extractor, load_shape_decoder(folder, manifest), training),
+        **shape_figures(
+            recording.segments,
+            described.values,
+            extractor,
+            load_shape_decoder(folder, manifest),
+            training,
+        ),
     }

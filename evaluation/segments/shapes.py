@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from placecell.core.segments import Segments
-from placecell.core.types import Bool, Float32, Float64, Int8, Int64, UInt8
+from placecell.core.segments import Segments, stored_extents
+from placecell.core.types import Bool, Float32, Float64, Int8, Int64
 from placecell.descriptors.extractor import Extractor
 from placecell.descriptors.orientation import bearings_of, orient
 from placecell.descriptors.voxels import voxelize
@@ -49,35 +49,42 @@ class CodedGrids:
     grids: Bool
 
     @classmethod
-    def of(cls, recording: Recording, extractor: Extractor, most: int, seed: int) -> "CodedGrids":
-        """Return segments of a recording, at most `most`, drawn at random."""
-        parameters = extractor.manifest.neighborhood
-        around = None if parameters is None else recording.neighborhood(parameters)
-        rows = np.random.default_rng(seed).permutation(len(recording.segments))[:most]
-        rows = np.sort(rows)
-        segments = recording.segments.take(rows)
-        descriptors = extractor.describe(segments, None if around is None else around[rows])
+    def of(cls, segments: Segments, descriptors: Float32, extractor: Extractor) -> "CodedGrids":
+        """Return segments that the extractor has described."""
         grids, _ = voxelize(segments, extractor.manifest.parameters)
         return cls(segments, extractor.manifest.quantizer.encode(descriptors), grids > 0)
 
+    @classmethod
+    def drawn(
+        cls, recording: Recording, extractor: Extractor, most: int, seed: int
+    ) -> "CodedGrids":
+        """Return segments of a recording, at most `most`, drawn at random."""
+        parameters = extractor.manifest.neighborhood
+        around = None if parameters is None else recording.neighborhood(parameters)
+        rows = drawn_rows(len(recording.segments), most, seed)
+        segments = recording.segments.take(rows)
+        descriptors = extractor.describe(segments, None if around is None else around[rows])
+        return cls.of(segments, descriptors, extractor)
+
     def stored(self, *, extents: bool = True) -> StoredSegments:
         """Return what a map holds of the segments, with or without the column `extents`."""
+        low, high = self.segments.bounds()
         return StoredSegments(
             codes=self.codes,
             centroids=self.segments.centroids(),
             sensors=self.segments.sensors.astype(np.float64),
-            extents=boxes(self.segments) if extents else None,
+            extents=stored_extents(high - low) if extents else None,
         )
 
 
-def boxes(segments: Segments) -> UInt8:
-    """Return the box of each segment as a map stores it, uint8 (n, 3): decimeters, rounded up."""
-    low, high = segments.bounds()
-    return np.asarray(np.ceil((high - low) * 10).clip(1, 255), np.uint8)
+def drawn_rows(count: int, most: int, seed: int) -> Int64:
+    """Return rows that are drawn at random, at most `most`, ascending, int64 (rows,)."""
+    return np.sort(np.random.default_rng(seed).permutation(count)[:most])
 
 
 def shape_figures(
-    recording: Recording,
+    segments: Segments,
+    descriptors: Float32,
     extractor: Extractor,
     decoder: ShapeDecoder | None,
     training: Recording | None,
@@ -86,8 +93,9 @@ def shape_figures(
     """Return the figures of reconstruction; all are null for a model without a decoder.
 
     Args:
-        recording: segments to reconstruct.
-        extractor: model that describes them.
+        segments: segments to reconstruct.
+        descriptors: their descriptors, float32 (n, dimension).
+        extractor: model that described them.
         decoder: decoder of the model.
         training: segments that the model was trained on, for the baseline; None: no baseline.
         seed: random seed of the measured segments.
@@ -98,7 +106,8 @@ def shape_figures(
     )
     if decoder is None:
         return {"reconstructed": 0, **nothing}
-    known = CodedGrids.of(recording, extractor, MEASURED, seed)
+    rows = drawn_rows(len(segments), MEASURED, seed)
+    known = CodedGrids.of(segments.take(rows), descriptors[rows], extractor)
     shapes = decoder.decode(known.stored())
     overlaps = overlap(shapes.occupancy, known.grids)
     figures = nothing | {
@@ -111,12 +120,11 @@ def shape_figures(
         "chamfer_m": chamfer(shapes, known.segments),
     }
     if training is not None:
-        learned = CodedGrids.of(training, extractor, 10 * MEASURED, seed)
-        guessed = nearest_shapes(known.codes, learned, extractor, known.grids)
+        learned = CodedGrids.drawn(training, extractor, 10 * MEASURED, seed)
+        nearest = nearest_codes(known.codes, learned, extractor)
+        guessed = mean_shapes(learned.grids, nearest, known.grids)
         figures["baseline_iou"] = rounded(overlap(guessed, known.grids))
-        figures["nearest_code_iou"] = rounded(
-            overlap(nearest_shapes(known.codes, learned, extractor, known.grids, 1), known.grids)
-        )
+        figures["nearest_code_iou"] = rounded(overlap(learned.grids[nearest[:, 0]], known.grids))
         placed = Shapes(guessed, true_centers(known.segments), shapes.bearings, shapes.voxel)
         figures["baseline_chamfer_m"] = chamfer(placed, known.segments)
         figures["baseline_training"] = training.name
@@ -181,25 +189,22 @@ def true_centers(segments: Segments) -> Float64:
     return np.asarray(centroids + turned(((low + high) / 2).astype(np.float64), bearings))
 
 
-def nearest_shapes(
-    codes: Int8, learned: CodedGrids, extractor: Extractor, true: Bool, most: int = NEAREST
-) -> Bool:
+def nearest_codes(codes: Int8, learned: CodedGrids, extractor: Extractor) -> Int64:
+    """Return the nearest training segments of each code, nearest first, int64 (n, at most 16)."""
+    decode = extractor.manifest.quantizer.decode
+    count = min(NEAREST, len(learned.codes))
+    _, rows = cKDTree(decode(learned.codes)).query(decode(codes), k=[*range(1, count + 1)])
+    return np.asarray(rows, np.int64)
+
+
+def mean_shapes(grids: Bool, nearest: Int64, true: Bool) -> Bool:
     """Return the mean grid of the nearest training codes, at the best threshold.
 
     Args:
-        codes: codes of the segments, int8 (n, code bytes).
-        learned: training segments.
-        extractor: model of the codes.
-        true: true grids, which choose the threshold.
-        most: number of training codes.
+        grids: grids of the training segments, bool (m, x, y, z).
+        nearest: nearest training segments of each segment, int64 (n, k).
+        true: true grids, bool (n, x, y, z), which choose the threshold.
     """
-    decode = extractor.manifest.quantizer.decode
-    known: Float32 = decode(learned.codes)
-    tree = cKDTree(known)
-    count = min(most, len(known))
-    _, rows = tree.query(decode(codes), k=count)
-    likely = np.stack(
-        [learned.grids[each].mean(axis=0, dtype=np.float32) for each in rows.reshape(-1, count)]
-    )
+    likely = np.stack([grids[each].mean(axis=0, dtype=np.float32) for each in nearest])
     overlaps = [overlap(likely > each, true).mean() for each in THRESHOLDS]
     return np.asarray(likely > THRESHOLDS[int(np.argmax(overlaps))])

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from placecell.core.jit import compiled
-from placecell.core.types import Float32, Float64, Int64
+from placecell.core.types import Float32, Float64, Int64, UInt8
 
 
 def means_by_key(points: Float32, keys: Int64) -> tuple[Float64, Int64]:
@@ -153,3 +153,12 @@ def _centroids(points: Float32, ends: Int64, centroids: Float64) -> None:
         centroids[segment, 1] = y / count
         centroids[segment, 2] = z / count
         start = ends[segment]
+
+
+def stored_extents(sides: Float32 | Float64) -> UInt8:
+    """Return sides of boxes as a map stores them: decimeters, rounded up, 1 to 255.
+
+    Args:
+        sides: lengths in meters, any shape.
+    """
+    return np.ceil(10 * sides).clip(1, 255).astype(np.uint8)

@@ -6,13 +6,14 @@ from math import cos, sin
 import numpy as np
 from placecell_client import CompactMap, Delta
 
+from placecell.core.segments import stored_extents
 from placecell.core.types import Float64, UInt32
 from service.clouds.segmented_scan import SegmentedScan
 from service.core.problems import Problem
 from service.inference.describer import Descriptors
 from service.inference.model_registry import Model
 
-LARGEST_EXTENT, MOST_POINTS = 255, 65_535
+MOST_POINTS = 65_535
 """Largest values of the columns `extents`, decimeters, and `points`."""
 
 
@@ -110,9 +111,7 @@ def edit_with(
         frame_times=np.array([origin.time]),
         frame_positions=position[None],
         frame_orientations=np.array([[0.0, 0.0, sin(half), cos(half)]], np.float32),
-        extents=np.ceil(10 * extents).clip(1, LARGEST_EXTENT).astype(np.uint8)
-        if before is None or before.extents is not None
-        else None,
+        extents=stored_extents(extents) if before is None or before.extents is not None else None,
         points=np.array([min(len(cloud), MOST_POINTS) for cloud in clouds], np.uint16)
         if before is None or before.points is not None
         else None,

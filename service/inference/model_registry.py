@@ -27,13 +27,13 @@ class Model:
         describer: runs the model.
         classifier: pair classifier; None if the model has none.
         confidence: gives the probability that a pose found from its descriptors is right.
-        shapes: decodes shapes from its codes; None if the model has no decoder.
+        folder: folder of the model.
     """
 
     describer: Describer
     classifier: PairClassifier | None
     confidence: Confidence
-    shapes: ShapeDecoder | None = None
+    folder: Path
 
     @property
     def manifest(self) -> Manifest:
@@ -59,6 +59,7 @@ class Models:
         self._metrics = metrics
         self._loading = Lock()
         self._by_id: dict[str, Model] = {}
+        self._decoders: dict[str, ShapeDecoder | None] = {}
         self.default = self.reload()
 
     def all(self) -> list[Model]:
@@ -91,6 +92,17 @@ class Models:
             f"Model {wanted!r:.100} is not loaded. The default model is {self.default.id}; /info "
             "lists all loaded models.",
         )
+
+    def shape_decoder(self, model: Model) -> ShapeDecoder | None:
+        """Return the shape decoder of a model, loaded by the first call; None if it has none.
+
+        Raises:
+            ModelError: its file cannot be loaded.
+        """
+        with self._loading:
+            if model.id not in self._decoders:
+                self._decoders[model.id] = load_shape_decoder(model.folder, model.manifest)
+            return self._decoders[model.id]
 
     def reload(self) -> Model:
         """Load the models of the settings that changed on disk, all of them or none.
@@ -138,7 +150,7 @@ class Models:
             Describer(extractor, self._settings.limits, self._metrics),
             load_pair_classifier(folder, extractor.manifest),
             _confidence_of(folder, extractor.manifest),
-            load_shape_decoder(folder, extractor.manifest),
+            folder,
         )
 
     def _tell(self) -> None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from placecell.core.segments import Segments
+from placecell.core.segments import Segments, stored_extents
 from placecell.core.types import Float32, Int8, Int64, UInt8
 from placecell.descriptors.extractor import Extractor
 from placecell.descriptors.orientation import bearings_of, orient
@@ -150,9 +150,9 @@ def corners_of(points: Float32, segments: Segments) -> tuple[Float32, Float32]:
 
 
 def boxes_of(points: Float32, segments: Segments) -> UInt8:
-    """Return the box of each segment as a map stores it: decimeters, rounded up, 1 to 255."""
+    """Return the box of each segment as a map stores it, uint8 (n, 3); see `stored_extents`."""
     low, high = corners_of(points, segments)
-    return np.asarray(np.ceil((high - low) * 10).clip(1, 255), np.uint8)
+    return stored_extents(high - low)
 
 
 def packed_grids(segments: Segments, extractor: Extractor) -> UInt8:

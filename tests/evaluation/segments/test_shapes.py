@@ -59,27 +59,28 @@ def test_decoder_beside_the_baseline() -> None:
     extractor = load_extractor(FOLDER)
     decoder = load_shape_decoder(FOLDER, extractor.manifest)
     known = recording(walls(8, seed=1), "known")
-    figures = shape_figures(recording(walls(), "new"), extractor, decoder, known)
+    figures = shape_figures(walls(), extractor.describe(walls()), extractor, decoder, known)
     assert figures["reconstructed"] == 4
     assert 0.05 < figures["iou"] <= 1
     assert 0 < figures["baseline_iou"] <= 1
     assert figures["baseline_training"] == "known"
     assert 0 < figures["chamfer_m"] < 0.6
     # Segments that the baseline knows are given back nearly whole.
-    again = shape_figures(known, extractor, decoder, known)
+    segments = known.segments
+    again = shape_figures(segments, extractor.describe(segments), extractor, decoder, known)
     assert again["nearest_code_iou"] > 0.99
 
 
 def test_model_without_a_decoder_has_no_figures() -> None:
     extractor = load_extractor(FOLDER)
-    figures = shape_figures(recording(walls(), "new"), extractor, None, None)
+    figures = shape_figures(walls(), extractor.describe(walls()), extractor, None, None)
     assert figures["iou"] is None
     assert figures["reconstructed"] == 0
 
 
 def test_grids_are_of_the_drawn_segments() -> None:
     extractor = load_extractor(FOLDER)
-    some = CodedGrids.of(recording(walls(8), "walls"), extractor, 3, seed=0)
+    some = CodedGrids.drawn(recording(walls(8), "walls"), extractor, 3, seed=0)
     assert len(some.codes) == len(some.segments) == len(some.grids) == 3
     assert some.grids.any(axis=(1, 2, 3)).all()
     assert some.stored(extents=False).extents is None

@@ -87,11 +87,12 @@ def decoder_of(state: State, snapshot: MapSnapshot) -> ShapeDecoder:
     model = state.engine.models.find(snapshot.model_id)
     if model is None:
         raise state.engine.models.unknown(snapshot.model_id)
-    if model.shapes is None:
+    decoder = state.engine.models.shape_decoder(model)
+    if decoder is None:
         raise Problem(
             409,
             "no-shapes",
             f"Model {model.manifest.name} of map {snapshot.name} has no shape decoder. Train one "
             "with 'placecell train-shapes', or use a map of a model that has one.",
         )
-    return model.shapes
+    return decoder
