@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from cli.sources import SOURCE_HELP, TOWN_HELP
+
 Drive = Annotated[
     Path,
     typer.Argument(
@@ -33,4 +35,14 @@ Model = Annotated[
 Models = Annotated[
     list[str] | None,
     typer.Option("--model", help="Model name or folder; repeatable. (default: all shipped models)"),
+]
+TrainingDrives = Annotated[
+    list[str], typer.Argument(help=SOURCE_HELP + TOWN_HELP, metavar="DRIVE[@FIRST:LAST]...")
+]
+Runs = Annotated[Path, typer.Option(help="Folder for checkpoints and training histories.")]
+Resume = Annotated[
+    bool, typer.Option("--resume", help="Continue from the last checkpoint of this run.")
+]
+License = Annotated[
+    str, typer.Option("--license", help="License of the drives, written into the model card.")
 ]

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, sources
+from cli.common_options import License, Resume, Runs, TrainingDrives
+from cli.sources import clear_errors, sources
 from cli.tables import progress_console
 
 if TYPE_CHECKING:
@@ -26,9 +27,7 @@ class Method(StrEnum):
 
 def train(
     method: Annotated[Method, typer.Argument(help="Training method.")],
-    drives: Annotated[
-        list[str], typer.Argument(help=SOURCE_HELP + TOWN_HELP, metavar="DRIVE[@FIRST:LAST]...")
-    ],
+    drives: TrainingDrives,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="Folder for the model. (default: models/METHOD)"),
@@ -47,15 +46,9 @@ def train(
             min=1, help="Number of passes over the training set. (default: set by the method)"
         ),
     ] = None,
-    runs: Annotated[
-        Path, typer.Option(help="Folder for checkpoints and training histories.")
-    ] = Path("runs"),
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Continue from the last checkpoint of this run.")
-    ] = False,
-    license_name: Annotated[
-        str, typer.Option("--license", help="License of the drives, written into the model card.")
-    ] = "not stated",
+    runs: Runs = Path("runs"),
+    resume: Resume = False,
+    license_name: License = "not stated",
 ) -> None:
     """Train an extractor and write a model folder: ONNX file, manifest, model card.
 

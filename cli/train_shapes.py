@@ -5,26 +5,19 @@ from typing import Annotated
 
 import typer
 
-from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, each_source, show
+from cli.common_options import License, Resume, Runs, TrainingDrives
+from cli.sources import clear_errors, each_source, show
 from cli.tables import progress_console
 
 
 def train_shapes(
     model: Annotated[str, typer.Argument(help="Model whose codes are decoded: name or folder.")],
-    drives: Annotated[
-        list[str], typer.Argument(help=SOURCE_HELP + TOWN_HELP, metavar="DRIVE[@FIRST:LAST]...")
-    ],
+    drives: TrainingDrives,
     seed: Annotated[int, typer.Option(help="Random seed of the training.")] = 0,
     epochs: Annotated[int, typer.Option(min=1, help="Number of passes over the training set.")] = 6,
-    runs: Annotated[
-        Path, typer.Option(help="Folder for checkpoints and training histories.")
-    ] = Path("runs"),
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Continue from the last checkpoint of this run.")
-    ] = False,
-    license_name: Annotated[
-        str, typer.Option("--license", help="License of the drives, written into the model card.")
-    ] = "not stated",
+    runs: Runs = Path("runs"),
+    resume: Resume = False,
+    license_name: License = "not stated",
 ) -> None:
     """Train the decoder that turns stored codes into shapes, and add it to a model's folder.
 

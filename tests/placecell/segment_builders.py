@@ -6,9 +6,11 @@ from typing import cast
 
 import numpy as np
 
+from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
-from placecell.core.types import Float32, Float64
+from placecell.core.types import Bool, Float32, Float64
 from placecell.datasets import Drive
+from placecell.segmentation.recording import Recording
 
 KITTI_TR = (
     "4.276802385584e-04 -9.999672484946e-01 -8.084491683471e-03 -1.198459927713e-02 "
@@ -139,3 +141,21 @@ def plane(half: float, step: float = 0.2, slope: float = 0.0, height: float = 0.
     along = np.arange(-half, half + step / 2, step)
     x, y = (axis.ravel() for axis in np.meshgrid(along, along, indexing="ij"))
     return np.stack([x, y, height + slope * x], axis=1).astype(np.float32)
+
+
+def one_scan_recording(
+    segments: Segments, name: str = "made", distinct: Bool | None = None
+) -> Recording:
+    """Return a recording of one scan, in which each segment is a group of its own."""
+    count = len(segments)
+    return Recording(
+        name=name,
+        parameters=PROTOCOL_V1,
+        segments=segments,
+        captures=np.zeros(count, np.int64),
+        groups=np.arange(count),
+        distinct=np.ones(count, bool) if distinct is None else distinct,
+        scans=1,
+        scan_hashes=("",),
+        path_length=0.0,
+    )

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segment_classes import CLASSES, class_indices
 from placecell.core.segments import Segments
 from placecell.core.types import UInt8
@@ -17,6 +16,7 @@ from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import MODELS_FOLDER
 from placecell.segmentation.recording import Recording
+from tests.placecell.segment_builders import one_scan_recording
 from training.classes.augmentation import bent, grown, varied
 from training.classes.examples import Examples, LabeledDrive, examples_of
 from training.classes.learning import ClassRecipe, agreed, learn, weights_of
@@ -36,18 +36,7 @@ def segments_of(count: int, seed: int = 0) -> Segments:
 
 
 def recording_of(segments: Segments, name: str) -> Recording:
-    count = len(segments)
-    return Recording(
-        name=name,
-        parameters=PROTOCOL_V1,
-        segments=segments,
-        captures=np.zeros(count, np.int64),
-        groups=np.arange(count),
-        distinct=np.arange(count) % 2 == 0,
-        scans=1,
-        scan_hashes=("",),
-        path_length=0.0,
-    )
+    return one_scan_recording(segments, name, np.arange(len(segments)) % 2 == 0)
 
 
 def separable(count: int, size: int, seed: int = 0) -> Examples:

@@ -3,15 +3,13 @@
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from placecell.core.parameters import PROTOCOL_V1
 from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import SHAPE_FILE, Manifest
-from placecell.segmentation.recording import Recording
 from placecell.shapes.decoder import ShapeDecoder
 from service.clouds.map_shapes import decoded_points
+from tests.placecell.segment_builders import one_scan_recording
 from tests.placecell.shapes.shape_builders import FOLDER, map_of, walls
 from training.data.training_set import Source
 from training.methods.run import Run
@@ -22,19 +20,7 @@ pytestmark = pytest.mark.slow
 
 
 def source(count: int) -> Source:
-    segments = walls(count)
-    recording = Recording(
-        name="walls",
-        parameters=PROTOCOL_V1,
-        segments=segments,
-        captures=np.zeros(count, np.int64),
-        groups=np.arange(count),
-        distinct=np.ones(count, bool),
-        scans=1,
-        scan_hashes=("",),
-        path_length=0.0,
-    )
-    return Source(recording, 0, 0)
+    return Source(one_scan_recording(walls(count)), 0, 0)
 
 
 def test_training_adds_a_decoder_and_changes_nothing_else(tmp_path: Path) -> None:

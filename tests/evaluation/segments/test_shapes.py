@@ -4,27 +4,11 @@ import numpy as np
 import pytest
 
 from evaluation.segments.shapes import CodedGrids, by_size, chamfer, overlap, shape_figures
-from placecell.core.parameters import PROTOCOL_V1
 from placecell.core.segments import Segments
 from placecell.descriptors.extractor import load_extractor
-from placecell.segmentation.recording import Recording
 from placecell.shapes.decoder import Shapes, load_shape_decoder
+from tests.placecell.segment_builders import one_scan_recording
 from tests.placecell.shapes.shape_builders import FOLDER, walls
-
-
-def recording(segments: Segments, name: str) -> Recording:
-    count = len(segments)
-    return Recording(
-        name=name,
-        parameters=PROTOCOL_V1,
-        segments=segments,
-        captures=np.zeros(count, np.int64),
-        groups=np.arange(count),
-        distinct=np.ones(count, bool),
-        scans=1,
-        scan_hashes=("",),
-        path_length=0.0,
-    )
 
 
 def test_overlap_by_hand() -> None:
@@ -58,7 +42,7 @@ def test_chamfer_by_hand() -> None:
 def test_decoder_beside_the_baseline() -> None:
     extractor = load_extractor(FOLDER)
     decoder = load_shape_decoder(FOLDER, extractor.manifest)
-    known = recording(walls(8, seed=1), "known")
+    known = one_scan_recording(walls(8, seed=1), "known")
     figures = shape_figures(walls(), extractor.describe(walls()), extractor, decoder, known)
     assert figures["reconstructed"] == 4
     assert 0.05 < figures["iou"] <= 1
@@ -80,7 +64,7 @@ def test_model_without_a_decoder_has_no_figures() -> None:
 
 def test_grids_are_of_the_drawn_segments() -> None:
     extractor = load_extractor(FOLDER)
-    some = CodedGrids.drawn(recording(walls(8), "walls"), extractor, 3, seed=0)
+    some = CodedGrids.drawn(one_scan_recording(walls(8), "walls"), extractor, 3, seed=0)
     assert len(some.codes) == len(some.segments) == len(some.grids) == 3
     assert some.grids.any(axis=(1, 2, 3)).all()
     assert some.stored(extents=False).extents is None
