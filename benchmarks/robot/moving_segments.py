@@ -119,29 +119,21 @@ def measure_sensor(
     progress: Progress,
 ) -> dict[str, Any]:
     """Return the figures of one sensor; `measure_moving` has the arguments."""
-    from town.drives.drive import write_drive
-    from town.drives.robots import mounted, way_through
+    from town import two_robots
     from town.sensing.sensors import sensor as lidar_of
 
-    town, route = way_through("streets", seed, scans, 1.0)
-    paths = [
-        write_drive(
-            folder / name,
-            town,
-            way,
-            traffic_seed=2 * seed + number,
-            noise_seed=2 * seed + number,
-            scans=scans,
-            spacing=1.0,
-            oncoming=oncoming,
-            lidar=mounted(lidar_of(sensor), "streets"),
-            labels=True,
-            overwrite=True,
-            progress=progress,
-        )
-        for number, (name, way) in enumerate([("map", route), ("queries", route.reversed())])
-    ]
-    figures = measure_pair(Pair.of(paths[0], paths[1], progress=progress), model, progress)
+    paths = two_robots(
+        folder,
+        seed,
+        scans,
+        spacing=1.0,
+        lidar=lidar_of(sensor),
+        oncoming=oncoming,
+        labels=True,
+        overwrite=True,
+        progress=progress,
+    )
+    figures = measure_pair(Pair.of(*paths, progress=progress), model, progress)
     return {"sensor": sensor, "seed": seed, **figures}
 
 

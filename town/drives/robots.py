@@ -33,6 +33,7 @@ def two_robots(
     columns: int | None = None,
     speed: float | None = None,
     distortion: bool = False,
+    oncoming: float = 0.0,
     labels: bool = False,
     overwrite: bool = False,
     progress: Progress = silent,
@@ -54,6 +55,7 @@ def two_robots(
         columns: number of azimuth steps; None for the sensor's own.
         speed: speed of the robots, m/s; None for `spacing` meters in a sweep of 0.1 s.
         distortion: write raw sweeps with the time of each point.
+        oncoming: number of oncoming cars per kilometer.
         labels: also write the class of each point.
         overwrite: replace existing drives.
         progress: function that shows the progress.
@@ -82,6 +84,7 @@ def two_robots(
             lidar=lidars[number],
             speed=speed,
             distortion=distortion,
+            oncoming=oncoming,
             labels=labels,
             overwrite=overwrite,
             progress=progress,
