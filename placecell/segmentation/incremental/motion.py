@@ -55,7 +55,8 @@ class Sight:
         azimuths, elevations = round(360 / AZIMUTH), round(-2 * LOWEST / ELEVATION)
         ranges = np.full((azimuths, elevations), np.inf, dtype=np.float32)
         columns, rows, distances = directions(points)
-        np.minimum.at(ranges, (columns, rows), distances)
+        # With one index, NumPy is six times as fast as with two.
+        np.minimum.at(ranges.reshape(-1), columns * elevations + rows, distances)
         beside = np.concatenate([ranges[-1:], ranges, ranges[:1]])
         wide = np.minimum(np.minimum(beside[:-2], beside[1:-1]), beside[2:])
         around = wide.copy()
@@ -91,7 +92,8 @@ def directions(points: Float32) -> tuple[Int64, Int64, Float32]:
     azimuth = np.degrees(np.arctan2(points[:, 1], points[:, 0]))
     with np.errstate(invalid="ignore", divide="ignore"):  # a point at the sensor has no elevation
         elevation = np.degrees(np.arcsin(np.clip(points[:, 2] / distances, -1, 1)))
-    columns = np.floor(azimuth / AZIMUTH).astype(np.int64) % round(360 / AZIMUTH)
+    columns = np.floor(azimuth / AZIMUTH).astype(np.int64)
+    columns += round(360 / AZIMUTH) * (columns < 0)
     rows = np.floor((np.nan_to_num(elevation) - LOWEST) / ELEVATION).astype(np.int64)
     return columns, np.minimum(rows, round(-2 * LOWEST / ELEVATION) - 1), distances
 
