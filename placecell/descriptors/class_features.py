@@ -18,8 +18,11 @@ from placecell.descriptors.neighborhood import SEED, slot_of
 HEIGHTS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
 """Heights above the lowest point between the layers of the profile, meters."""
 
-CELLS = (0.5, 1.0)
-"""Edge lengths of the cells of local surfaces, meters."""
+CELLS = SMALL, LARGE = 0.5, 1.0
+"""Edge lengths of the cells of local surfaces, meters: powers of two, one twice the other."""
+
+REACH = 512.0
+"""Number of cells from the centroid to either side. Farther points share the last cell."""
 
 FEWEST = 4
 """Smallest number of points of a cell whose surface is judged."""
@@ -83,10 +86,9 @@ def class_features(segments: Segments) -> Float32:
     layers = np.zeros((len(segments), 2, len(HEIGHTS) + 1))
     _profile(points, ends, centroids, np.array(HEIGHTS), layers)
     parts = [whole, layers.reshape(len(segments), -1)]
-    for cell in CELLS:
-        local = np.zeros((len(segments), len(SURFACES) + 2))
-        _surfaces(points, ends, centroids, cell, SEED, local)
-        parts.append(local)
+    surfaces = np.zeros((len(segments), len(CELLS), len(SURFACES) + 2))
+    _surfaces(points, ends, centroids, SEED, surfaces)
+    parts.append(surfaces.reshape(len(segments), -1))
     parts.append(views(points, ends, centroids, covariance, to_sensor))
     return np.concatenate(parts, axis=1).astype(np.float32)
 
@@ -131,8 +133,8 @@ def _profile(
         number[:], x[:], y[:], squares[:] = 0, 0, 0, 0
         for point in range(start, ends[segment]):
             above, layer = points[point, 2] - low, 0
-            while layer < len(heights) and above >= heights[layer]:
-                layer += 1
+            for height in heights:  # without a branch: successive points are at many heights
+                layer += int(above >= height)
             dx = points[point, 0] - centroids[segment, 0]
             dy = points[point, 1] - centroids[segment, 1]
             number[layer] += 1
@@ -149,18 +151,14 @@ def _profile(
 
 @compiled
 def _surfaces(
-    points: Float32,
-    ends: Int64,
-    centroids: Float64,
-    cell: float,
-    seed: UInt64,
-    found: Float64,
+    points: Float32, ends: Int64, centroids: Float64, seed: UInt64, found: Float64
 ) -> None:
-    """Fill the mean local surface of each segment, (segments, SURFACES + 2).
+    """Fill the mean local surfaces of each segment, (segments, cell sizes, SURFACES + 2).
 
     The last two values are the logarithm of the number of cells, and cells per column of cells.
     Cells are kept in a hash table, as in `placecell.descriptors.neighborhood`, and numbered in the
-    order of their first points, so that the seed does not change the result.
+    order of their first points, so that the seed does not change the result. Eight small cells are
+    a large one: the points are read once.
     """
     longest, start = 1, 0
     for end in ends:
@@ -168,27 +166,19 @@ def _surfaces(
     most = 1
     while most < 2 * longest:
         most *= 2
-    keys, table = np.empty(most, np.int64), np.empty(most, np.int64)
-    columns = np.empty(most, np.int64)
-    sums = np.empty((longest, 10))
-    moments = np.empty((3, 3))
+    memory = (np.empty(most, np.int64), np.empty(most, np.int64), np.empty(most, np.int64))
+    small, large = np.empty((longest, 10)), np.empty((longest, 10))
+    small_keys, large_keys = np.empty(longest, np.int64), np.empty(longest, np.int64)
     start = 0
     for segment in range(len(ends)):
-        some = points[start : ends[segment]]
-        cells, held = _gather(some, centroids[segment], cell, seed, keys, table, columns, sums)
-        for number in range(cells):
-            count = sums[number, 0]
-            if count < FEWEST:
-                continue
-            mean = sums[number, 1:4] / count
-            place = 4
-            for row in range(3):
-                for column in range(row, 3):
-                    moments[row, column] = sums[number, place] / count - mean[row] * mean[column]
-                    place += 1
-            _judge(moments, cell, count / len(some), found[segment])
-        found[segment, len(SURFACES)] = np.log(cells)
-        found[segment, len(SURFACES) + 1] = cells / held
+        some, centroid = points[start : ends[segment]], centroids[segment]
+        cells, held, inside = _gather(some, centroid, SMALL, seed, memory, small_keys, small)
+        _average(small[:cells], held, SMALL, len(some), found[segment, 0])
+        if inside:
+            cells, held = _merge(small_keys[:cells], small, seed, memory, large_keys, large)
+        else:
+            cells, held, _ = _gather(some, centroid, LARGE, seed, memory, large_keys, large)
+        _average(large[:cells], held, LARGE, len(some), found[segment, 1])
         start = ends[segment]
 
 
@@ -198,57 +188,171 @@ def _gather(
     centroid: Float64,
     cell: float,
     seed: UInt64,
+    memory: tuple[Int64, Int64, Int64],
     keys: Int64,
-    table: Int64,
-    columns: Int64,
     sums: Float64,
-) -> tuple[int, int]:
-    """Sum the points of each cell of a segment; return the number of cells and of columns.
+) -> tuple[int, int, bool]:
+    """Sum the points of each cell of a segment.
 
     Args:
         points: points of the segment.
         centroid: float64 (3,).
-        cell: edge length of the cells, meters.
+        cell: edge length of the cells, a power of two, meters.
         seed: seed of the hash tables.
-        keys, table, columns: memory of the hash tables.
-        sums: number of points of each cell, sums of x, y, z, and sums of their products.
+        memory: memory of the hash tables (see `_number`).
+        keys: key of each cell, filled by this function.
+        sums: number of points of each cell, sums of x, y, z, and sums of their products, relative
+            to the middle of the cell so that no digits are lost; filled by this function.
+
+    Returns:
+        Number of cells, number of columns, and whether all cells are within reach of the keys.
     """
-    slots = 1
-    while slots < 2 * len(points):
-        slots *= 2
-    table[:slots] = -1
-    columns[:slots] = -1
-    cells = held = 0
-    at, index = np.empty(3), np.empty(3)
-    for point in points:
-        for axis in range(3):
-            at[axis] = point[axis] - centroid[axis]
-            index[axis] = min(max(np.floor(at[axis] / cell), -512.0), 511.0)
-            # Relative to the middle of the cell, so that no digits are lost.
-            at[axis] -= (index[axis] + 0.5) * cell
-        column = ((int(index[0]) + 512) << 10) | (int(index[1]) + 512)
-        key = (column << 10) | (int(index[2]) + 512)
-        slot = slot_of(key, seed, slots)
-        while table[slot] >= 0 and keys[slot] != key:
-            slot = (slot + 1) & (slots - 1)
-        if table[slot] < 0:
-            table[slot], keys[slot] = cells, key
-            sums[cells] = 0
-            cells += 1
-            tall = slot_of(column, seed, slots)
-            while columns[tall] >= 0 and columns[tall] != column:
-                tall = (tall + 1) & (slots - 1)
-            held += columns[tall] < 0
-            columns[tall] = column
-        into = sums[table[slot]]
+    slots = _cleared(len(points), memory)
+    cells = held = number = 0
+    last, inside, inverse = -1, True, 1 / cell
+    for point in range(len(points)):
+        x = points[point, 0] - centroid[0]
+        y = points[point, 1] - centroid[1]
+        z = points[point, 2] - centroid[2]
+        column, row, layer = np.floor(x * inverse), np.floor(y * inverse), np.floor(z * inverse)
+        if not (abs(column) < REACH and abs(row) < REACH and abs(layer) < REACH):
+            inside = False
+            column = min(max(column, -REACH), REACH - 1.0)
+            row = min(max(row, -REACH), REACH - 1.0)
+            layer = min(max(layer, -REACH), REACH - 1.0)
+        x -= (column + 0.5) * cell
+        y -= (row + 0.5) * cell
+        z -= (layer + 0.5) * cell
+        key = (((int(column) + 512) << 10 | (int(row) + 512)) << 10) | (int(layer) + 512)
+        if key != last:
+            number, new_column = _number(key, cells, seed, slots, memory)
+            if number == cells:
+                keys[cells], sums[cells] = key, 0
+                cells += 1
+                held += new_column
+            last = key
+        into = sums[number]
         into[0] += 1
+        into[1] += x
+        into[2] += y
+        into[3] += z
+        into[4] += x * x
+        into[5] += x * y
+        into[6] += x * z
+        into[7] += y * y
+        into[8] += y * z
+        into[9] += z * z
+    return cells, held, inside
+
+
+@compiled_part
+def _merge(
+    small_keys: Int64,
+    small: Float64,
+    seed: UInt64,
+    memory: tuple[Int64, Int64, Int64],
+    keys: Int64,
+    sums: Float64,
+) -> tuple[int, int]:
+    """Sum the small cells of each large one (see `_gather`); return the numbers as there."""
+    slots = _cleared(len(small_keys), memory)
+    cells = held = 0
+    for cell in range(len(small_keys)):
+        column, row = small_keys[cell] >> 20, (small_keys[cell] >> 10) & 1023
+        layer = small_keys[cell] & 1023
+        # Keys count from -512, so that halves are rounded down.
+        key = ((((column >> 1) + 256) << 10 | ((row >> 1) + 256)) << 10) | ((layer >> 1) + 256)
+        number, new_column = _number(key, cells, seed, slots, memory)
+        if number == cells:
+            keys[cells], sums[cells] = key, 0
+            cells += 1
+            held += new_column
+        # From the middle of the small cell to that of the large one.
+        x, y, z = (
+            ((column & 1) - 0.5) * SMALL,
+            ((row & 1) - 0.5) * SMALL,
+            ((layer & 1) - 0.5) * SMALL,
+        )
+        count, of_x, of_y, of_z = small[cell, 0], small[cell, 1], small[cell, 2], small[cell, 3]
+        into = sums[number]
+        into[0] += count
+        into[1] += of_x + count * x
+        into[2] += of_y + count * y
+        into[3] += of_z + count * z
+        into[4] += small[cell, 4] + 2 * x * of_x + count * x * x
+        into[5] += small[cell, 5] + x * of_y + y * of_x + count * x * y
+        into[6] += small[cell, 6] + x * of_z + z * of_x + count * x * z
+        into[7] += small[cell, 7] + 2 * y * of_y + count * y * y
+        into[8] += small[cell, 8] + y * of_z + z * of_y + count * y * z
+        into[9] += small[cell, 9] + 2 * z * of_z + count * z * z
+    return cells, held
+
+
+@compiled_part
+def _cleared(count: int, memory: tuple[Int64, Int64, Int64]) -> int:
+    """Clear the hash tables for a number of keys; return their number of slots."""
+    slots = 1
+    while slots < 2 * count:
+        slots *= 2
+    memory[1][:slots] = -1
+    memory[2][:slots] = -1
+    return slots
+
+
+@compiled_part
+def _number(
+    key: int, unused: int, seed: UInt64, slots: int, memory: tuple[Int64, Int64, Int64]
+) -> tuple[int, bool]:
+    """Return the number of a cell, and whether its column is new.
+
+    Args:
+        key: key of the cell.
+        unused: number for a cell that is new.
+        seed: seed of the hash tables.
+        slots: number of slots.
+        memory: keys and numbers of cells, and keys of columns, by slot.
+    """
+    keys, numbers, columns = memory
+    slot = slot_of(key, seed, slots)
+    while numbers[slot] >= 0 and keys[slot] != key:
+        slot = (slot + 1) & (slots - 1)
+    if numbers[slot] >= 0:
+        return numbers[slot], False
+    numbers[slot], keys[slot] = unused, key
+    column = key >> 10
+    slot = slot_of(column, seed, slots)
+    while columns[slot] >= 0 and columns[slot] != column:
+        slot = (slot + 1) & (slots - 1)
+    is_new = columns[slot] < 0
+    columns[slot] = column
+    return unused, is_new
+
+
+@compiled_part
+def _average(sums: Float64, held: int, cell: float, points: int, found: Float64) -> None:
+    """Fill the mean local surface of a segment, (SURFACES + 2,).
+
+    Args:
+        sums: sums of each cell (see `_gather`).
+        held: number of columns.
+        cell: edge length of the cells, meters.
+        points: number of points of the segment.
+        found: mean surface, filled by this function.
+    """
+    moments = np.empty((3, 3))
+    for number in range(len(sums)):
+        count = sums[number, 0]
+        if count < FEWEST:
+            continue
+        mean = sums[number, 1:4] / count
         place = 4
         for row in range(3):
-            into[1 + row] += at[row]
-            for other in range(row, 3):
-                into[place] += at[row] * at[other]
+            for column in range(row, 3):
+                moments[row, column] = sums[number, place] / count - mean[row] * mean[column]
                 place += 1
-    return cells, held
+        _judge(moments, cell, count / points, found)
+    found[len(SURFACES)] = np.log(len(sums))
+    found[len(SURFACES) + 1] = len(sums) / held
 
 
 @compiled_part

@@ -1,5 +1,7 @@
 """Tests of the features of a segment's geometry, on simple shapes."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -9,9 +11,12 @@ from placecell.descriptors.class_features import (
     FEATURES,
     HEIGHTS,
     SURFACES,
+    VERSION,
     class_features,
 )
 from placecell.descriptors.class_views import ACROSS, ALONG, LAYER, UP, VIEWS
+
+FIXTURES = Path(__file__).parents[2] / "fixtures"
 
 SENSOR = np.array([[0.0, 0.0, 1.7]], np.float32)
 
@@ -111,3 +116,12 @@ def test_one_point_has_finite_features() -> None:
     point = Segments.of([np.zeros((1, 3), np.float32)], np.zeros((1, 3)))
     assert np.isfinite(class_features(point)).all()
     assert class_features(Segments.of([], np.zeros((0, 3)))).shape == (0, FEATURES)
+
+
+def test_features_are_those_that_the_shipped_heads_were_trained_with() -> None:
+    """The file has features of version 1 by its first code, also of a segment 580 m long."""
+    with np.load(FIXTURES / "class_features.npz") as stored:
+        segments = Segments(stored["points"], stored["ends"], stored["sensors"])
+        expected = stored["features"]
+    assert VERSION == 1, "store the features of the new version"
+    assert class_features(segments) == pytest.approx(expected, rel=1e-5, abs=1e-5)
