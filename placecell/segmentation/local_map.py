@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from placecell.core.jit import compiled
 from placecell.core.parameters import Parameters
 from placecell.core.segments import means_by_key
 from placecell.core.types import Float32, Float64
@@ -15,9 +16,22 @@ which would take longer than the product."""
 
 def in_range(points: Float32, parameters: Parameters) -> Float32:
     """Return the points between minimum and maximum range, float32 (n, 3), in the sensor frame."""
-    squared = np.einsum("ij,ij->i", points, points)
-    keep = (squared >= parameters.min_range**2) & (squared <= parameters.max_range**2)
-    return np.asarray(points[keep])
+    bounds = np.float32(parameters.min_range**2), np.float32(parameters.max_range**2)
+    return _in_range(np.ascontiguousarray(points), *bounds)
+
+
+@compiled
+def _in_range(points: Float32, lowest: np.float32, highest: np.float32) -> Float32:
+    """Return the points whose squared distance is within the bounds, float32 (n, 3)."""
+    kept = np.empty(points.shape, np.float32)
+    count = 0
+    for point in range(len(points)):
+        x, y, z = points[point, 0], points[point, 1], points[point, 2]
+        squared = x * x + y * y + z * z
+        # Written so, the point is copied without a branch.
+        kept[count, 0], kept[count, 1], kept[count, 2] = x, y, z
+        count += int((squared >= lowest) & (squared <= highest))
+    return kept[:count]
 
 
 def voxel_means(points: Float32, voxel: float) -> Float32:

@@ -14,6 +14,7 @@ from collections import deque
 
 import numpy as np
 
+from placecell.core.jit import compiled
 from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.segments import Segments
 from placecell.core.types import Bool, Float32, Float64, Int64
@@ -187,12 +188,10 @@ class IncrementalSegmentation:
 
     def _is_clear(self, points: Float32, counts: Int64) -> Bool:
         """Return whether each segment is clear of the local map's border, bool (segments,)."""
-        if not len(counts):
-            return np.zeros(0, dtype=bool)
         shift = np.zeros(3) if self._shift is None else self._shift
-        offset = points[:, :2] - (self._sensor - shift)[:2].astype(np.float32)
-        squared = np.einsum("ij,ij->i", offset, offset)
-        farthest = np.maximum.reduceat(squared, np.cumsum(counts) - counts)
+        center = (self._sensor - shift)[:2].astype(np.float32)
+        farthest = np.empty(len(counts), dtype=np.float32)
+        _farthest(points, np.cumsum(counts), center, farthest)
         margin = self.parameters.growing_radius + self.parameters.map_voxel
         return np.asarray(farthest < (self.parameters.local_map_radius - margin) ** 2)
 
@@ -209,11 +208,10 @@ class IncrementalSegmentation:
     def _keep_best(self, segments: Segments, ids: Int64, clear: Bool, moved: Bool) -> None:
         """Replace the best views by better ones, and end the tracks whose ids ended."""
         sensor = self._sensor.astype(np.float32)
-        for index, (identity, is_clear, has_moved) in enumerate(
-            zip(ids.tolist(), clear.tolist(), moved.tolist(), strict=True)
+        for index, (identity, voxels, is_clear, has_moved) in enumerate(
+            zip(ids.tolist(), segments.counts.tolist(), clear.tolist(), moved.tolist(), strict=True)
         ):
             track = self._tracks.get(identity)
-            voxels = int(segments.counts[index])
             if track is None or track.is_improved_by(voxels, is_clear):
                 self._tracks[identity] = Track(
                     voxels, is_clear, self._scan, sensor, segments.cloud(index).copy()
@@ -231,3 +229,16 @@ class IncrementalSegmentation:
     def _is_complete(self, track: Track) -> bool:
         """Return whether a best view is final: clear of the border, and not replaced for long."""
         return track.clear and self._scan - track.scan >= self.parameters.accumulated_scans
+
+
+@compiled
+def _farthest(points: Float32, ends: Int64, center: Float32, farthest: Float32) -> None:
+    """Fill the largest squared horizontal distance of each segment's points, (segments,), m^2."""
+    start = 0
+    for segment in range(len(ends)):
+        largest = np.float32(0)
+        for point in range(start, ends[segment]):
+            x, y = points[point, 0] - center[0], points[point, 1] - center[1]
+            largest = max(largest, x * x + y * y)
+        farthest[segment] = largest
+        start = ends[segment]
