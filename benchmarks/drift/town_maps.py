@@ -221,7 +221,7 @@ class _Mapper:
         live = self._segmentation.segments()
         self._segmentation.take_final_views()
         found = self._engine.describe(clouds_of(live), live.segments.sensors)
-        seen = SeenSegments.of(found, live.ids, self._engine.model_id, self._engine.preprocessing)
+        seen = SeenSegments.of(found, live, self._engine.model_id, self._engine.preprocessing)
         capture = Capture(scan * SWEEP_SECONDS, pose)
         edit = self._edits.add(seen, capture, meters)
         if edit is not None:

@@ -69,8 +69,8 @@ LEAST_PAIRS = 10
 def with_corrected_odometry(graph: GraphMap, parameters: PoseGraphParameters) -> GraphMap:
     """Return a map whose odometry is corrected, with its captures at the corrected poses.
 
-    Tracks whose covariance is stated stay as they are: their odometry is known to be better or
-    worse than assumed here.
+    A track stays as it is if its odometry is stated to be better than the correction makes it
+    (`PoseGraphParameters.drift_corrected`). Other stated variances of height and heading stay.
 
     Args:
         graph: the map, with its captures at the poses of their odometry.
@@ -80,10 +80,9 @@ def with_corrected_odometry(graph: GraphMap, parameters: PoseGraphParameters) ->
         Cancelled: The request is late, or its client disconnected.
     """
     frames = graph.frames
-    one, other = frames.links.T
+    one = frames.links[:, 0]
     odometry = frames.odometry
-    stated = (odometry.variances[other] > odometry.variances[one]).all(axis=1)
-    tracks = np.setdiff1d(odometry.tracks[one], odometry.tracks[one[stated]])
+    tracks = _tracks_to_correct(frames, parameters)
     if not len(tracks):
         return graph
     errors = np.zeros((len(one), 2))
@@ -106,8 +105,39 @@ def with_corrected_odometry(graph: GraphMap, parameters: PoseGraphParameters) ->
     variances = np.where(
         corrected[:, None], frames.ways[:, None] * np.array(growth), odometry.variances
     )
+    kept = corrected & ~np.isin(odometry.tracks, odometry.tracks[one[~_are_stated(frames)]])
+    variances[kept, 1:] = odometry.variances[kept, 1:]
     odometry = replace(now.frames.odometry, variances=variances)
     return GraphMap(replace(now.frames, odometry=odometry), now.centroids, now.captures)
+
+
+def _are_stated(frames: GraphFrames) -> Bool:
+    """Return whether the map states the covariance of each link, bool (links,).
+
+    A robot that stands still adds nothing to it.
+    """
+    one, other = frames.links.T
+    variances = frames.odometry.variances
+    grows = (variances[other] > variances[one]).all(axis=1)
+    stands = (variances[other] == variances[one]).all(axis=1) & (variances[other] > 0).all(axis=1)
+    return np.asarray(grows | stands)
+
+
+def _tracks_to_correct(frames: GraphFrames, parameters: PoseGraphParameters) -> Int64:
+    """Return the tracks whose odometry is not stated to be better than the correction makes it."""
+    one, other = frames.links.T
+    odometry = frames.odometry
+    stated = _are_stated(frames)
+    way = np.linalg.norm(odometry.positions[other] - odometry.positions[one], axis=1)
+    grown = odometry.variances[other, 0] - odometry.variances[one, 0]
+    tracks = np.unique(odometry.tracks[one])
+    good = [
+        track
+        for track in tracks.tolist()
+        if (rows := stated & (odometry.tracks[one] == track)).any()
+        and grown[rows].sum() < parameters.drift_corrected**2 * way[rows].sum()
+    ]
+    return np.setdiff1d(tracks, good)
 
 
 def repeated_views(graph: GraphMap, tracks: Int64, apart: float) -> Int64:

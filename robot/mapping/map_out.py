@@ -13,8 +13,13 @@ import numpy as np
 from placecell_client import CompactMap, Delta, encode_delta
 from scipy.spatial.transform import Rotation
 
-from placecell.core.types import Float64, Int8, Int64, UInt8
+from placecell.core.segments import stored_extents
+from placecell.core.types import Float32, Float64, Int8, Int64, UInt8
+from placecell.segmentation.incremental import LiveSegments
 from robot.core.usable_segments import UsableSegments
+from robot.mapping.odometry_model import OdometryModel
+
+ODOMETRY = OdometryModel()
 
 NO_IDS = np.zeros(0, dtype=np.int64)
 VIEW_METERS = 10.0
@@ -46,6 +51,8 @@ class SeenSegments:
         preprocessing: version of the steps from points to the model's input.
         classes: class of each segment with its probability, uint8 (n,); None if the model has no
             semantic head.
+        sides: sides of the boxes along the axes of the odometry frame, meters, float32 (n, 3); None
+            if they are not known.
     """
 
     ids: Int64
@@ -54,12 +61,23 @@ class SeenSegments:
     model_id: str
     preprocessing: str
     classes: UInt8 | None = None
+    sides: Float32 | None = None
 
     @classmethod
-    def of(cls, found: UsableSegments, ids: Int64, model_id: str, preprocessing: str) -> Self:
-        """Return the usable segments of a capture, whose ids are int64 (segments,)."""
-        kept = ids[found.usable]
-        return cls(kept, found.codes, found.centroids, model_id, preprocessing, found.classes)
+    def of(
+        cls, found: UsableSegments, live: LiveSegments, model_id: str, preprocessing: str
+    ) -> Self:
+        """Return the segments of a capture that have a descriptor."""
+        low, high = live.segments.bounds()
+        return cls(
+            live.ids[found.usable],
+            found.codes,
+            found.centroids,
+            model_id,
+            preprocessing,
+            found.classes,
+            (high - low)[found.usable],
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,12 +102,6 @@ def track_of(frame: str) -> int:
     return crc32(frame.encode()) or 1  # 0 means that there is no odometry
 
 
-def _odometry_of(pose: Float64) -> Float64:
-    """Return the row of `frame_odometry` of a pose, whose covariance is not known."""
-    yaw = np.arctan2(pose[1, 0], pose[0, 0])
-    return np.array([*pose[:3, 3], yaw, 0.0, 0.0, 0.0])
-
-
 class EditMaker:
     """Makes the edits of a session.
 
@@ -103,9 +115,12 @@ class EditMaker:
         sequence: number of the next edit.
     """
 
-    def __init__(self, robot: str, session: str) -> None:
+    def __init__(self, robot: str, session: str, odometry: OdometryModel = ODOMETRY) -> None:
         self._robot = robot
         self._session = session
+        self._odometry = odometry
+        self._last_pose: Float64 | None = None
+        self._variances = np.zeros(3)
         self.part = 0
         self.sequence = 0
         self._next_id = 0
@@ -132,6 +147,7 @@ class EditMaker:
             meters: distance driven until then.
             moved: ids of segments that have moved, int64 (m,): their views leave the map.
         """
+        self._drive(capture.odom_pose)
         left = [view for each in moved.tolist() for view in self._stored.pop(each, ())]
         before = self._viewed_at
         ids = seen.ids.tolist()
@@ -166,7 +182,10 @@ class EditMaker:
             frame_orientations=turn[None].astype(np.float32),
             frame_tracks=np.array([track_of(self.frame)], np.uint32),
             classes=None if seen.classes is None else seen.classes[chosen],
-            frame_odometry=_odometry_of(pose)[None],
+            extents=None if seen.sides is None else stored_extents(seen.sides[chosen]),
+            frame_odometry=np.array(
+                [[*pose[:3, 3], np.arctan2(pose[1, 0], pose[0, 0]), *self._variances]]
+            ),
         )
         content = encode_delta(Delta(segments, np.array(sorted(left), dtype=np.uint32)))
         edit = MapEdit(self.sequence, self.part, content, count)
@@ -180,3 +199,11 @@ class EditMaker:
         self._next_id = 0
         self._viewed_at.clear()
         self._stored.clear()
+        self._last_pose = None
+        self._variances = np.zeros(3)
+
+    def _drive(self, pose: Float64) -> None:
+        """Add the variances of the way since the last capture, also of one without an edit."""
+        if self._last_pose is not None:
+            self._variances = self._variances + self._odometry.variances(self._last_pose, pose)
+        self._last_pose = pose.copy()

@@ -19,7 +19,7 @@ from robot.localization.scan_jump import ScanAgreement, object_columns
 from robot.mapping.keyframes import Keyframes
 from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
 
-VERSION = 2
+VERSION = 3
 """Version of the checkpoints."""
 STANDING = 0.1
 """Steps below this length are noise of the odometry of a standing robot, meters."""
@@ -181,7 +181,7 @@ class Perception:
         live = every.take(np.flatnonzero(~moves))
         self.segmentation.take_final_views()  # Views of all sides are stored, not only the best.
         found = describe(clouds_of(live), live.segments.sensors)
-        seen = SeenSegments.of(found, live.ids, self.model_id, self.preprocessing)
+        seen = SeenSegments.of(found, live, self.model_id, self.preprocessing)
         edit = self.map_out.add(seen, capture, self.meters, every.ids[moves])
         return Keyframe(live, found.codes, found.centroids), edit
 

@@ -4,8 +4,11 @@ import numpy as np
 from placecell_client import CompactMap, decode_delta
 from placecell_client.maps.edit import apply
 
+from placecell.core.segments import Segments
+from placecell.segmentation.incremental import LiveSegments
 from robot.core.usable_segments import UsableSegments
 from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
+from robot.mapping.odometry_model import OdometryModel
 from tests.robot.agent_fakes import at
 
 
@@ -65,9 +68,38 @@ def test_edit_carries_the_classes_of_the_new_views() -> None:
         np.array([0, 2]),
         np.array([0, 121], np.uint8),
     )
-    described = SeenSegments.of(found, np.array([5, 6, 7]), "model-1", "1")
+    clouds = [np.random.default_rng(each).uniform(0, each, (9, 3)) for each in (1, 2, 30)]
+    live = LiveSegments(
+        Segments.of(clouds, np.zeros((3, 3))),
+        np.array([5, 6, 7]),
+        np.ones(3, bool),
+        np.zeros(3, np.int64),
+        np.zeros(3, bool),
+    )
+    described = SeenSegments.of(found, live, "model-1", "1")
     assert described.ids.tolist() == [5, 7]
     edit = edits.add(described, Capture(0.0, at(0)), 0.0)
     content = stored(None, edit)
     assert content.classes is not None
     assert content.classes.tolist() == [0, 121]
+    assert content.extents is not None
+    for row, cloud in enumerate((clouds[0], clouds[2])):
+        sides = np.ptp(cloud, axis=0)
+        assert (content.extents[row] == np.ceil(10 * sides.astype(np.float32)).clip(max=255)).all()
+
+
+def test_variances_grow_with_distance_and_turn_and_begin_anew_with_a_part() -> None:
+    edits = EditMaker("ann", "s", OdometryModel(0.1, 0.05, 0.01, 0.02))
+    content = stored(None, add(edits, 0.0, 1))
+    turned = at(4.0)
+    turned[:2, :2] = [[0.0, -1.0], [1.0, 0.0]]
+    edits.add(seen(), Capture(1.0, turned), 4.0)  # no edit, but the way counts
+    content = stored(content, edits.add(seen(2), Capture(2.0, turned), 4.0))
+    assert content.frame_odometry is not None
+    np.testing.assert_allclose(content.frame_odometry[0, 4:], 0.0)
+    np.testing.assert_allclose(content.frame_odometry[1, 4:], [0.04, 0.01, 4e-4 + 4e-4 * np.pi / 2])
+    np.testing.assert_allclose(content.frame_odometry[1, 3], np.pi / 2)
+    edits.begin_part()
+    begun = stored(None, add(edits, 9.0, 3))
+    assert begun.frame_odometry is not None
+    np.testing.assert_allclose(begun.frame_odometry[:, 4:], 0.0)

@@ -7,10 +7,12 @@ import numpy as np
 from placecell_client import CompactMap, Delta
 from placecell_client.maps.canonical import canonical
 from placecell_client.maps.edit import apply, take, with_optional
+from scipy.spatial.transform import Rotation
 
 from placecell.core.cancellation import current
 from placecell.core.types import UInt8, UInt32
 from placecell.lasting.judgment import ABSENT, CONFIRMED, ObservedSegments, judge
+from placecell.pose_graph.frames import NO_TRACK, headings, wrapped
 from service.maps.layers import MapLayers
 
 PASS_SECONDS = 300
@@ -22,14 +24,29 @@ REACH = 60.0
 MOST_CAPTURES = 64
 """Largest number of captures of an upload that segments are judged from, the last ones."""
 
+LEAST_TURN = 0.01
+"""Turn of a track in the map from which boxes are turned too, radians: orientations are float32."""
+
 COLUMNS = ("seen", "missed", "confirmed", "absent")
 
 NONE: UInt32 = np.zeros(0, dtype=np.uint32)
 
 
 def observed_segments(content: CompactMap) -> ObservedSegments:
-    """Return the segments of a map with their boxes and captures; unknown sizes are zeros."""
+    """Return the segments of a map with their boxes and captures; unknown sizes are zeros.
+
+    The sides of a box are along the axes of its odometry track, which a merge or an optimization
+    turns in the map. The box in the map is then the one around the turned box.
+    """
     sides = np.zeros((len(content), 3)) if content.extents is None else content.extents / 10.0
+    if content.frame_tracks is not None and content.frame_odometry is not None:
+        rotations = Rotation.from_quat(content.frame_orientations).as_matrix()
+        turns = headings(rotations) - content.frame_odometry[:, 3]
+        turns[content.frame_tracks == NO_TRACK] = 0.0
+        turns[np.abs(wrapped(turns)) < LEAST_TURN] = 0.0
+        cos, sin = np.abs([np.cos(turns), np.sin(turns)])[:, content.frame_index]
+        x, y, z = sides.T
+        sides = np.column_stack([cos * x + sin * y, sin * x + cos * y, z])
     return ObservedSegments(
         centroids=content.centroids,
         sides=sides,

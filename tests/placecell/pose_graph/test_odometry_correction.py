@@ -127,6 +127,16 @@ def test_stated_covariance_keeps_the_odometry() -> None:
     assert with_corrected_odometry(graph, PARAMETERS) is graph
 
 
+def test_odometry_that_is_stated_to_be_worse_is_corrected() -> None:
+    graph, true = drifting(wandering(79), np.zeros(79), variances=0.0125)  # 5 cm after a meter
+    corrected = with_corrected_odometry(graph, PARAMETERS)
+    after = lengths(corrected.frames.positions) / lengths(true) - 1
+    assert np.sqrt((after**2).mean()) < 0.005
+    variances = corrected.frames.odometry.variances
+    np.testing.assert_allclose(variances[:, 0], 0.02**2 * corrected.frames.ways, rtol=0.02)
+    np.testing.assert_array_equal(variances[:, 1:], graph.frames.odometry.variances[:, 1:])
+
+
 def test_stated_covariance_of_one_track_keeps_only_that_track() -> None:
     graph, true = drifting(wandering(79), np.zeros(79))
     frames, odometry = graph.frames, graph.frames.odometry

@@ -11,7 +11,7 @@ from placecell_client.maps.edit import take
 
 from placecell.descriptors.manifest import Manifest
 from service.maps.layers import MapLayers
-from service.maps.writes.long_life import PASS_SECONDS
+from service.maps.writes.long_life import PASS_SECONDS, observed_segments
 from service.search import matching
 from service.search.localization import StoredNeighborhood
 from service.search.matching import nearest_segments
@@ -94,6 +94,22 @@ def test_one_pass_counts_once(passed: Any, street: CompactMap) -> None:
     assert passed.get("/maps/street").content == before
     drive_by(passed, street, [WALL, HOUSE], 1 + 0.5 * PASS_SECONDS / DAY, 200)
     assert counts(passed) == [(0, 1), (1, 0), (1, 0), (0, 0)]
+
+
+def test_boxes_follow_the_turn_of_their_track_in_the_map(street: CompactMap) -> None:
+    quarter = np.array([[0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)]], np.float32)
+    driven = replace(
+        street,
+        frame_tracks=np.ones(1, np.uint32),
+        frame_odometry=np.zeros((1, 7)),
+    )
+    sides = np.array(SIDES) / 10
+    np.testing.assert_array_equal(observed_segments(driven).sides, sides)
+    turned = observed_segments(replace(driven, frame_orientations=quarter)).sides
+    np.testing.assert_allclose(turned, sides[:, [1, 0, 2]], atol=1e-5)
+    # Without odometry, it is not known whether a box was turned.
+    unknown = replace(street, frame_orientations=quarter)
+    np.testing.assert_array_equal(observed_segments(unknown).sides, sides)
 
 
 def test_upload_without_boxes_judges_nothing(service: Any, street: CompactMap) -> None:
