@@ -20,7 +20,7 @@ Seed = Annotated[
 ]
 Place = Annotated[
     str,
-    typer.Option(metavar="NAME", help="Place: streets, campus, garden, indoor or car-park."),
+    typer.Option(metavar="NAME", help="Place: streets, campus, garden, indoor, car-park or suburb."),
 ]
 Floor = Annotated[
     int,

@@ -13,11 +13,12 @@ from town.objects.block import SceneObject
 
 KINDS: dict[str, tuple[str, ...]] = {
     "building": (
-        "house", "building", "shed", "carport", "wall", "column", "ceiling", "door", "partition",
+        "house", "garage", "building", "shed", "carport", "wall", "column", "ceiling", "door",
+        "partition",
     ),
-    "vegetation": ("tree", "hedge", "bush", "flower bed"),
-    "pole": ("lamp post", "light mast", "bollards"),
-    "vehicle": ("parked car", "bicycles"),
+    "vegetation": ("tree", "hedge", "bush", "undergrowth", "flower bed"),
+    "pole": ("lamp post", "light mast", "electric post", "bollards"),
+    "vehicle": ("parked car", "trailer", "bicycles"),
     "person": ("person",),
     "fence": ("fence", "garden wall"),
     "sign": ("traffic sign",),

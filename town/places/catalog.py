@@ -8,6 +8,7 @@ from town.places.car_park import car_park
 from town.places.garden import garden
 from town.places.indoor.floor import DIFFERING, indoor
 from town.places.place import Place
+from town.places.suburb.plan import suburb
 from town.streets.route import Route
 from town.town import Town
 
@@ -51,6 +52,7 @@ PLACES: dict[str, PlaceKind] = {
     "garden": PlaceKind(garden, spacing=0.4, sensor_height=1.4),
     INDOOR: PlaceKind(indoor, spacing=0.3, sensor_height=1.0, headroom=2.0),
     "car-park": PlaceKind(car_park, spacing=0.7, sensor_height=1.73),
+    "suburb": PlaceKind(suburb, spacing=1.0, sensor_height=1.73),
 }
 """Places by name."""
 

@@ -1,0 +1,1 @@
+"""Suburb: houses behind gardens, overgrown boundaries, banks, and cars that are partly hidden."""
