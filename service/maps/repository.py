@@ -337,7 +337,7 @@ class MapRepository:
         layers = MapLayers.of(content)
         robots, index = layers.robots, self._index(layers)
         note = Note(self._clock(), author, operation, len(content), 0)
-        with self._committing:
+        with holding(self._committing):
             self._quotas.check_new(self._usage, author, robots, len(file))
             self.copied_segments += len(content)
             runs = runs_of(content.ids)
@@ -380,7 +380,7 @@ class MapRepository:
         moved: Sequence[Annotation] = ()
         if self.anchors is not None and operation in MOVES_CAPTURES:
             moved = self.anchors.moved(snapshot, layers)
-        with self._committing:
+        with holding(self._committing):
             try:
                 self._quotas.check_write(self._usage, snapshot, robots, sources, size)
             except NoRoomError:
@@ -420,7 +420,7 @@ class MapRepository:
 
     def delete(self, name: str) -> None:
         """Remove a map, damaged or not; on return it is gone from the disk."""
-        with self._committing:
+        with holding(self._committing):
             snapshot = self.peek(name)
             head = self._damaged.get(name)
             if head is None:

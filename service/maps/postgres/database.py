@@ -83,7 +83,16 @@ class PlainWords(logging.Filter):
         return True
 
 
+class FirstErrors(logging.Filter):
+    """Drops what the driver logs at the end of a pipeline: the error before it is raised."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Return whether a record is logged."""
+        return not str(record.msg).startswith("error ignored")
+
+
 logging.getLogger("psycopg.pool").addFilter(PlainWords())
+logging.getLogger("psycopg").addFilter(FirstErrors())
 
 
 class PostgresRows:
@@ -109,6 +118,83 @@ class PostgresRows:
             with self._watchdog.limit(self._connection, self._seconds):
                 cursor.executemany(_in_dialect(statement), rows)
         return cursor
+
+
+class GatheredRows:
+    """Statements on one connection that are sent together, once an answer is read.
+
+    Each sending ends with a synchronization, so the server knows that it waits for this service,
+    and ends the transaction of a stopped one (IDLE_SECONDS).
+    """
+
+    def __init__(
+        self,
+        connection: Connection,
+        pipeline: psycopg.Pipeline,
+        watchdog: Watchdog,
+        seconds: float,
+    ) -> None:
+        self._connection = connection
+        self._pipeline = pipeline
+        self._watchdog = watchdog
+        self._seconds = seconds
+        self._gathered: list[GatheredAnswer] = []
+
+    def execute(self, statement: str, values: Sequence[Any] = (), /) -> "GatheredAnswer":
+        """Gather a statement; return its answer, which sends it when it is read."""
+        answer = GatheredAnswer(self, statement, values)
+        self._gathered.append(answer)
+        return answer
+
+    def executemany(self, statement: str, values: Iterable[Sequence[Any]], /) -> None:
+        """Gather a statement once for each row of values."""
+        for each in values:
+            self.execute(statement, each)
+
+    def send(self) -> None:
+        """Send the gathered statements, and wait for all answers."""
+        gathered, self._gathered = self._gathered, []
+        if not gathered:
+            return
+        with self._watchdog.limit(self._connection, self._seconds):
+            for each in gathered:
+                each.cursor = self._connection.execute(
+                    _in_dialect(each.statement), each.values or None
+                )
+            # Without it, or with a flush after it, the server would not count as waiting.
+            self._pipeline.sync()
+
+
+class GatheredAnswer:
+    """Answer of a statement that was gathered; reading it sends the statement if it must."""
+
+    def __init__(self, rows: GatheredRows, statement: str, values: Sequence[Any]) -> None:
+        self.statement = statement
+        self.values = values
+        self.cursor: psycopg.Cursor[tuple[Any, ...]] | None = None
+        self._rows = rows
+
+    @property
+    def rowcount(self) -> int:
+        """Number of changed rows."""
+        return self._sent().rowcount
+
+    def fetchone(self) -> tuple[Any, ...] | None:
+        """Return the next row; None after the last one."""
+        return self._sent().fetchone()
+
+    def fetchall(self) -> list[tuple[Any, ...]]:
+        """Return all other rows."""
+        return self._sent().fetchall()
+
+    def __iter__(self) -> Iterator[tuple[Any, ...]]:
+        return iter(self._sent())
+
+    def _sent(self) -> psycopg.Cursor[tuple[Any, ...]]:
+        if self.cursor is None:
+            self._rows.send()
+        assert self.cursor is not None
+        return self.cursor
 
 
 class PostgresDatabase:
@@ -175,7 +261,9 @@ class PostgresDatabase:
         with self._watchdog.limit(connection, seconds + STATEMENT_SECONDS):
             yield
 
-    def transaction(self, work: Work[Result], seconds: float | None = None) -> Result:
+    def transaction(
+        self, work: Work[Result], seconds: float | None = None, is_short: bool = False
+    ) -> Result:
         """Run writes as one transaction, durable on return.
 
         If the connection is lost, they run again on another one. If that was during the commit, its
@@ -184,11 +272,14 @@ class PostgresDatabase:
         They are not committed if nobody waits for the answer any more: the robot may have repeated
         the write at another service, and changed the same segments since. A robot that gives up
         later than this check cannot overtake the commit, because the writes hold the map's lock.
+        Nor do they wait for that lock, or for another connection, longer than their request does.
 
         Args:
             work: the writes.
             seconds: seconds that a statement or the commit may take; STATEMENT_SECONDS unless
                 given.
+            is_short: the writes are few and small. Those whose answers nobody reads are sent
+                together, so that they hold the map's lock for few round trips.
 
         Raises:
             StoreError: nothing was changed; unless its message says that this is not known.
@@ -199,7 +290,7 @@ class PostgresDatabase:
         while True:
             attempt = _Attempt()
             try:
-                return self._run(work, unsure, attempt, seconds)
+                return self._run(work, unsure, attempt, seconds, is_short)
             except PoolTimeout as error:
                 failed = self._unreachable(error)
                 if not unsure:
@@ -211,6 +302,7 @@ class PostgresDatabase:
                     raise failed from error
             if time.monotonic() > until:
                 raise _unsure(failed) if unsure else failed
+            current().check()
             time.sleep(PAUSE_SECONDS)
 
     @contextmanager
@@ -221,6 +313,28 @@ class PostgresDatabase:
             yield PostgresRows(connection, self._watchdog)
             connection.rollback()
 
+    def read(self, work: Callable[[Rows], Result]) -> Result:
+        """Read by statements that are a transaction each: one round trip for each statement.
+
+        If the connection is lost, they run again on another one.
+
+        Raises:
+            StoreError: the server does not answer.
+        """
+        until = time.monotonic() + RETRY_SECONDS
+        with _translated():
+            while True:
+                try:
+                    with self._pool.connection() as connection:
+                        connection.autocommit = True
+                        return work(PostgresRows(connection, self._watchdog))
+                except PoolTimeout as error:
+                    raise self._unreachable(error) from error
+                except psycopg.Error as error:
+                    # A connection that was idle while the server restarted.
+                    if not is_lost(error) or time.monotonic() > until:
+                        raise
+
     def _begin_reading(self, held: ExitStack) -> Connection:
         """Return a connection of the pool with a read transaction, held for a block."""
         until = time.monotonic() + RETRY_SECONDS
@@ -228,8 +342,9 @@ class PostgresDatabase:
             with ExitStack() as trying:
                 try:
                     connection = trying.enter_context(self._pool.connection())
+                    connection.autocommit = True  # the transaction begins here, by one round trip
                     PostgresRows(connection, self._watchdog).execute(
-                        "SET TRANSACTION ISOLATION LEVEL REPEATABLE READ, READ ONLY;"
+                        "BEGIN ISOLATION LEVEL REPEATABLE READ, READ ONLY;"
                         "SET LOCAL idle_in_transaction_session_timeout = "
                         f"'{READ_IDLE_SECONDS:.0f}s'"
                     )
@@ -244,20 +359,29 @@ class PostgresDatabase:
                 return connection
 
     def _run(
-        self, work: Work[Result], unsure: bool, attempt: "_Attempt", seconds: float | None
+        self,
+        work: Work[Result],
+        unsure: bool,
+        attempt: "_Attempt",
+        seconds: float | None,
+        is_short: bool,
     ) -> Result:
         seconds = STATEMENT_SECONDS if seconds is None else seconds
         with self._pool.connection() as connection:
             try:
-                rows = PostgresRows(connection, self._watchdog, seconds)
-                result = work(rows, unsure)
-                current().check()
-                attempt.is_committing = True
-                with (
-                    _noticing(connection) as notices,
-                    self._watchdog.limit(connection, seconds),
-                ):
-                    connection.commit()
+                connection.autocommit = False
+                with self._sending(connection, seconds, is_short) as rows:
+                    rows.execute("SELECT set_config('lock_timeout', ?, true)", (_lock_timeout(),))
+                    result = work(rows, unsure)
+                    if isinstance(rows, GatheredRows):
+                        rows.send()
+                    current().check()
+                    attempt.is_committing = True
+                    with (
+                        _noticing(connection) as notices,
+                        self._watchdog.limit(connection, seconds),
+                    ):
+                        connection.commit()
             except psycopg.Error as error:
                 if is_lost(error):
                     connection.close()  # the pool makes another one
@@ -265,6 +389,18 @@ class PostgresDatabase:
             if SYNC_CANCELED & notices:
                 raise psycopg.OperationalError("the wait for the synchronous standby was canceled")
             return result
+
+    @contextmanager
+    def _sending(
+        self, connection: Connection, seconds: float, is_short: bool
+    ) -> Iterator[PostgresRows | GatheredRows]:
+        if not is_short or not psycopg.Pipeline.is_supported():
+            yield PostgresRows(connection, self._watchdog, seconds)
+            return
+        with ExitStack() as parts:
+            pipeline = parts.enter_context(connection.pipeline())
+            yield GatheredRows(connection, pipeline, self._watchdog, seconds)
+            parts.enter_context(self._watchdog.limit(connection, seconds))  # the end waits too
 
     def _note_error(self, error: psycopg.Error | None) -> None:
         self._last_error = error
@@ -312,6 +448,12 @@ def _configure(connection: Connection) -> None:
         f"SET idle_in_transaction_session_timeout = '{IDLE_SECONDS:.0f}s'".encode()
     )
     connection.autocommit = was_auto
+
+
+def _lock_timeout() -> str:
+    """Return the longest wait for a row: no longer than the request waits for its answer."""
+    seconds = min(LOCK_SECONDS, current().seconds_left)
+    return f"{max(1000 * seconds, 1):.0f}ms"
 
 
 @contextmanager

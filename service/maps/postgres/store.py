@@ -35,7 +35,7 @@ from service.maps.sql.operations import (
 from service.maps.sql.owners import Owners
 from service.maps.sql.rows import Rows
 from service.maps.sql.snapshot import SqlSnapshot, check_map
-from service.maps.sql.tables import HEAD, head_from, head_of, row_of, save_head
+from service.maps.sql.tables import HEAD, head_from, numbered_head_of, row_of, save_head
 from service.maps.store import (
     IDS,
     NO_IDS,
@@ -120,7 +120,7 @@ class PostgresStore:
     def read(self, uid: str) -> Iterator[SqlHistory]:
         """Read a map's log; KeyError if there is no such map."""
         with self._database.snapshot() as rows:
-            yield SqlHistory(rows, row_of(rows, uid), head_of(rows, uid))
+            yield SqlHistory(rows, *numbered_head_of(rows, uid))
 
     def create(
         self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS
@@ -153,8 +153,7 @@ class PostgresStore:
         mark = commit_after(head.mark, head.sequence + 1, note, blob, len(blob)).mark
 
         def add(rows: Rows, again: bool) -> MapHead:
-            if not _locked(rows, head.uid):
-                raise KeyError(head.name)
+            _lock(rows, head.uid)
             if again and _has_commit(rows, head.uid, head.sequence + 1, mark):
                 found = _synced(rows, head.uid)
                 # Later commits of others are not part of the answer.
@@ -165,22 +164,22 @@ class PostgresStore:
                 _count_annotated(rows, row_of(rows, head.uid))
             return _told(rows, after)
 
-        return self._database.transaction(add)
+        return self._database.transaction(add, is_short=True)
 
     def reserve(self, uid: str, count: int, author: str = "", most: int = IDS) -> int:
         """Reserve ids that no segment ever had; return the first. Raises as `MapStore` does."""
 
         def take(rows: Rows, again: bool) -> int:
             del again  # ids that were reserved without an answer are never given out
-            _locked(rows, uid)
+            _lock(rows, uid)
             return reserve_ids(rows, uid, count, author, most, self._clock())
 
-        return self._database.transaction(take)
+        return self._database.transaction(take, is_short=True)
 
     def owners(self, uid: str, ids: Iterable[int]) -> list[Owner | None]:
         """Return the last owner of each of these ids; None for ids without an owner."""
-        with self._database.snapshot() as rows:
-            return Owners(rows, row_of(rows, uid)).of(ids)
+        wanted = list(ids)
+        return self._database.read(lambda rows: Owners(rows, row_of(rows, uid)).of(wanted))
 
     def free_ids(self, uid: str, used: Iterable[int], mark: str | None = None) -> MapHead:
         """Forget the owners of unused ids. Parameters are those of `MapStore`."""
@@ -188,7 +187,7 @@ class PostgresStore:
 
         def free(rows: Rows, again: bool) -> MapHead:
             del again  # a second run changes nothing more
-            _locked(rows, uid)
+            _lock(rows, uid)
             check_mark(rows, uid, mark)
             return _told(rows, free_unused(rows, uid, kept))
 
@@ -206,20 +205,20 @@ class PostgresStore:
 
         def write(rows: Rows, again: bool) -> None:
             del again  # a second run changes nothing more
-            _locked(rows, uid)
-            row, head = row_of(rows, uid), head_of(rows, uid)
+            _lock(rows, uid)
+            row, head = numbered_head_of(rows, uid)
             write_annotations(rows, row, put, removed)
             _count_annotated(rows, row)
             _told(rows, head)
 
-        self._database.transaction(write)
+        self._database.transaction(write, is_short=True)
 
     def compact(self, uid: str, sequence: int, file: bytes) -> MapHead:
         """Drop the versions before one, whose file is given; KeyError if it is not kept."""
 
         def shorten(rows: Rows, again: bool) -> MapHead:
             del again  # a second run writes the same rows
-            _locked(rows, uid)
+            _lock(rows, uid)
             return _told(rows, compact_map(rows, uid, sequence, file))
 
         return self._database.transaction(shorten)
@@ -242,19 +241,19 @@ class PostgresStore:
 
     def find(self, name: str) -> SharedMap | None:
         """Return the newest state of a map; None if there is no such map."""
-        with self._database.snapshot() as rows:
-            found = rows.execute(f"{SHARED} WHERE name = ?", (name,)).fetchone()
+        found = self._database.read(
+            lambda rows: rows.execute(f"{SHARED} WHERE name = ?", (name,)).fetchone()
+        )
         return None if found is None else _shared(found)
 
     def shared_maps(self) -> list[SharedMap]:
         """Return the newest states of all maps, by name."""
-        with self._database.snapshot() as rows:
-            return [_shared(row) for row in rows.execute(f"{SHARED} ORDER BY name")]
+        found = self._database.read(lambda rows: rows.execute(f"{SHARED} ORDER BY name").fetchall())
+        return [_shared(row) for row in found]
 
     def annotations_of(self, uid: str) -> list[Annotation]:
         """Return the annotations of a map; none if there is no such map."""
-        with self._database.snapshot() as rows:
-            return known_annotations(rows, uid).get(uid, [])
+        return self._database.read(lambda rows: known_annotations(rows, uid).get(uid, []))
 
     @contextmanager
     def listen(self) -> Iterator[Callable[[float], set[str]]]:
@@ -341,8 +340,12 @@ def _shared(row: tuple[Any, ...]) -> SharedMap:
 
 def _locked(rows: Rows, uid: str) -> bool:
     """Lock a map's row until the transaction ends; return whether there is one."""
-    found: Any = rows.execute("SELECT 1 FROM maps WHERE uid = ? FOR UPDATE", (uid,)).fetchone()
-    return found is not None
+    return _lock(rows, uid).fetchone() is not None
+
+
+def _lock(rows: Rows, uid: str) -> Any:
+    """Lock a map's row until the transaction ends, if there is one; return the answer."""
+    return rows.execute("SELECT 1 FROM maps WHERE uid = ? FOR UPDATE", (uid,))
 
 
 def _has_commit(rows: Rows, uid: str, sequence: int, mark: str) -> bool:
@@ -364,7 +367,7 @@ def _synced(rows: Rows, uid: str) -> MapHead:
     A commit that is found by its mark may be on the primary only. The standby has it when it has
     this later one.
     """
-    return save_head(rows, row_of(rows, uid), head_of(rows, uid))
+    return save_head(rows, *numbered_head_of(rows, uid))
 
 
 def _told(rows: Rows, head: MapHead) -> MapHead:

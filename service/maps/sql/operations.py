@@ -13,6 +13,7 @@ from service.maps.sql.tables import (
     insert_base,
     insert_commit,
     insert_map,
+    numbered_head_of,
     row_of,
     save_head,
 )
@@ -87,7 +88,7 @@ def append_commit(
     annotations: Sequence[Annotation] = (),
 ) -> MapHead:
     """Add a commit after a head, and write annotations; KeyError if the map has another head."""
-    row, found = row_of(rows, head.uid), head_of(rows, head.uid)
+    row, found = numbered_head_of(rows, head.uid)
     if found.mark != head.mark:
         raise KeyError(head.name)
     commit = commit_after(head.mark, head.sequence + 1, note, blob, len(blob))
@@ -118,7 +119,7 @@ def reserve_ids(
     given_out: GivenOut = UNRECORDED,
 ) -> int:
     """Reserve ids that no segment ever had; return the first. Raises as `MapStore` does."""
-    row, head = row_of(rows, uid), head_of(rows, uid)
+    row, head = numbered_head_of(rows, uid)
     owners = Owners(rows, row)
     reserved = owners.reserved(author, now - RESERVED_SECONDS)
     if reserved + count > most:
@@ -152,7 +153,7 @@ def check_mark(rows: Rows, uid: str, mark: str | None) -> None:
 
 def free_unused(rows: Rows, uid: str, used: Iterable[int]) -> MapHead:
     """Forget the owners of ids that are not in `used`, which ascends."""
-    row, head = row_of(rows, uid), head_of(rows, uid)
+    row, head = numbered_head_of(rows, uid)
     owners = Owners(rows, row)
     owners.keep_only(used)
     first, end = owners.largest_gap()
@@ -161,7 +162,7 @@ def free_unused(rows: Rows, uid: str, used: Iterable[int]) -> MapHead:
 
 def compact_map(rows: Rows, uid: str, sequence: int, file: bytes) -> MapHead:
     """Drop the versions before one, whose file is given; KeyError if it is not kept."""
-    row, head = row_of(rows, uid), head_of(rows, uid)
+    row, head = numbered_head_of(rows, uid)
     found = rows.execute(
         "UPDATE commits SET delta = NULL, bytes = 0 WHERE map = ? AND sequence = ?",
         (row, sequence),

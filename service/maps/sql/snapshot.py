@@ -4,7 +4,7 @@ from service.maps.sql.annotations import read_annotations
 from service.maps.sql.history import SqlHistory
 from service.maps.sql.owners import Owners
 from service.maps.sql.rows import Rows
-from service.maps.sql.tables import HEAD, head_from, head_of, row_of
+from service.maps.sql.tables import HEAD, head_from, head_of, numbered_head_of, row_of
 from service.maps.store import Annotation, MapHead, OwnedIds, StoreError
 
 
@@ -21,8 +21,7 @@ class SqlSnapshot:
 
     def history(self, uid: str) -> SqlHistory:
         """Return a map's log, valid as long as the snapshot; KeyError if there is no such map."""
-        row = row_of(self._rows, uid)
-        return SqlHistory(self._rows, row, head_of(self._rows, uid))
+        return SqlHistory(self._rows, *numbered_head_of(self._rows, uid))
 
     def owned_ids(self, uid: str) -> list[OwnedIds]:
         """Return the ascending runs of owned ids; KeyError if there is no such map."""

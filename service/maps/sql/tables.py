@@ -18,6 +18,8 @@ HEAD = """
 SELECT name, uid, sequence, mark, base, next_id, base_bytes, log_bytes, coalesce(
     (SELECT author FROM commits WHERE commits.map = maps.map AND commits.sequence = maps.base), ''
 ), end_id, digest FROM maps"""
+NUMBERED = HEAD.replace(" FROM maps", ", maps.map FROM maps")
+"""Columns of a head, and the row number of the map."""
 COMMIT = "SELECT sequence, time, author, operation, changed, removed, bytes, mark, link"
 
 
@@ -60,13 +62,19 @@ def row_of(rows: Rows, uid: str) -> int:
 
 def head_of(rows: Rows, uid: str) -> MapHead:
     """Return a map's head; KeyError if there is no such map, StoreError if its row was altered."""
-    row = rows.execute(f"{HEAD} WHERE uid = ?", (uid,)).fetchone()
-    if row is None:
+    return numbered_head_of(rows, uid)[1]
+
+
+def numbered_head_of(rows: Rows, uid: str) -> tuple[int, MapHead]:
+    """Return row number and head of a map by one statement; raises as `head_of` does."""
+    found = rows.execute(f"{NUMBERED} WHERE uid = ?", (uid,)).fetchone()
+    if found is None:
         raise KeyError(uid)
-    head = head_from(row)
-    if row[-1] != digest_of(head):
+    *columns, row = found
+    head = head_from(tuple(columns))
+    if columns[-1] != digest_of(head):
         raise StoreError("damaged", f"map {head.name!r}: its row in the table maps was altered")
-    return head
+    return int(row), head
 
 
 def head_from(row: tuple[Any, ...]) -> MapHead:

@@ -25,7 +25,7 @@ from service.maps.sql.operations import (
 from service.maps.sql.owners import Owners
 from service.maps.sql.rows import Rows
 from service.maps.sql.snapshot import SqlSnapshot, check_map
-from service.maps.sql.tables import HEAD, head_from, head_of, row_of, save_head
+from service.maps.sql.tables import HEAD, head_from, numbered_head_of, row_of, save_head
 from service.maps.sqlite.data_lock import locked
 from service.maps.sqlite.database import ADVICE, Database, Layout
 from service.maps.sqlite.id_ledger import SKIPPED, IdLedger
@@ -123,7 +123,7 @@ class SqliteMapStore:
     def read(self, uid: str) -> Iterator[SqlHistory]:
         """Read a map's log; KeyError if there is no such map."""
         with self._database.snapshot() as connection:
-            yield SqlHistory(connection, row_of(connection, uid), head_of(connection, uid))
+            yield SqlHistory(connection, *numbered_head_of(connection, uid))
 
     def create(
         self, name: str, file: bytes, note: Note, next_id: int, ids: Ids = NO_IDS
@@ -284,7 +284,7 @@ def _skip(connection: sqlite3.Connection, first_free: Mapping[str, int]) -> None
     """Skip ids of each map, up to its first free id."""
     for uid, next_id in first_free.items():
         try:
-            row, head = row_of(connection, uid), head_of(connection, uid)
+            row, head = numbered_head_of(connection, uid)
         except StoreError:
             continue  # a damaged map is not served
         # Their owner is not known.

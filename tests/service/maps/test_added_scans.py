@@ -51,8 +51,10 @@ def test_scan_makes_a_new_map_at_the_pose_of_the_sensor(service: Any) -> None:
 
 
 def test_codes_are_those_of_describe(service: Any) -> None:
-    segmented = service.post("/scans", params={"name": "scan.pcd"}, content=FILE).json()
-    segments = [{"points": each["points"], "sensor": [0, 0, 0]} for each in segmented["segments"]]
+    segmented = service.post("/scans", params={"name": "scan.pcd"}, content=FILE)
+    assert segmented.status_code == 200, segmented.text
+    found = segmented.json()["segments"]
+    segments = [{"points": each["points"], "sensor": [0, 0, 0]} for each in found]
     described = service.post("/describe", json={"segments": segments}).json()["descriptors"]
     add(service, create=True, yaw=1.0)
     stored = decode(service.get("/maps/yard").content)

@@ -1,5 +1,6 @@
 """Store on PostgreSQL: several services, lost connections, and versions of the tables."""
 
+import asyncio
 import builtins
 import logging
 import os
@@ -13,7 +14,9 @@ from typing import Any
 
 import psycopg
 import pytest
+from psycopg.conninfo import conninfo_to_dict, make_conninfo
 
+from benchmarks.durability.loopback_proxy import LoopbackProxy
 from placecell.core.cancellation import Cancelled, CancelToken, cancelled_by
 from service.core.settings import Settings
 from service.engine import StartError
@@ -23,7 +26,7 @@ from service.maps.postgres.store import PostgresStore
 from service.maps.postgres.tables import LAYOUT, SCHEMA
 from service.maps.sql import operations
 from service.maps.sqlite.store import SqliteMapStore
-from service.maps.store import Annotation, MapHead, Note, StoreError
+from service.maps.store import Annotation, Ids, MapHead, Note, StoreError
 from service.maps.stores import open_store
 from tests.service.postgres_server import PostgresServer
 
@@ -97,7 +100,8 @@ def test_write_that_the_server_ended_for_idleness_is_repeated(
     def slow(rows: Any, *arguments: Any, **named: Any) -> MapHead:
         calls.append(arguments)
         if len(calls) == 1:
-            rows.execute("SET LOCAL idle_in_transaction_session_timeout = '50ms'")
+            limit = "SELECT set_config('idle_in_transaction_session_timeout', '50ms', true)"
+            rows.execute(limit).fetchone()
             time.sleep(0.4)
         return append(rows, *arguments, **named)
 
@@ -117,7 +121,8 @@ def test_write_that_nobody_waits_for_any_more_is_not_committed(
     def slow(rows: Any, *arguments: Any, **named: Any) -> MapHead:
         if stopped and not token.is_cancelled:
             token.cancel()
-            rows.execute("SET LOCAL idle_in_transaction_session_timeout = '50ms'")
+            limit = "SELECT set_config('idle_in_transaction_session_timeout', '50ms', true)"
+            rows.execute(limit).fetchone()
             time.sleep(0.4)
         token.cancel()
         return append(rows, *arguments, **named)
@@ -129,6 +134,83 @@ def test_write_that_nobody_waits_for_any_more_is_not_committed(
     # The map is free for the others.
     monkeypatch.setattr("service.maps.postgres.store.append_commit", append)
     assert store.append(head, b"two", NOTE, 0).sequence == 2
+
+
+def test_write_waits_for_a_locked_map_no_longer_than_its_request(
+    store: PostgresStore, postgres_database: str
+) -> None:
+    """Else a request that nobody waits for would queue for the map, ahead of those that count."""
+    head = store.create("yard", b"file", NOTE, 0)
+    with psycopg.connect(postgres_database) as other:
+        other.execute(f"SELECT 1 FROM {SCHEMA}.maps FOR UPDATE".encode())
+        begun = time.monotonic()
+        with (
+            cancelled_by(CancelToken(begun + 0.3)),
+            pytest.raises((StoreError, Cancelled)),
+        ):
+            store.append(head, b"one", NOTE, 0)
+        assert time.monotonic() - begun < database.LOCK_SECONDS / 2
+    assert store.append(head, b"two", NOTE, 0).sequence == 2
+
+
+class TurnCounter(LoopbackProxy):
+    """Link to a server that counts how often the client speaks after the server has.
+
+    Attributes:
+        turns: number of round trips of all connections.
+    """
+
+    def __init__(self, target: int) -> None:
+        super().__init__()
+        self.turns = 0
+        self._target = target
+
+    async def connected(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        from_server, to_server = await asyncio.open_connection("127.0.0.1", self._target)
+        is_answered = True
+
+        async def requests() -> None:
+            nonlocal is_answered
+            while chunk := await reader.read(1 << 16):
+                self.turns += is_answered
+                is_answered = False
+                to_server.write(chunk)
+
+        async def answers() -> None:
+            nonlocal is_answered
+            while chunk := await from_server.read(1 << 16):
+                is_answered = True
+                writer.write(chunk)
+
+        try:
+            both = [asyncio.create_task(requests()), asyncio.create_task(answers())]
+            await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            to_server.transport.abort()
+            writer.transport.abort()
+
+
+def test_write_takes_few_round_trips(postgres_database: str) -> None:
+    """A map is locked for as many round trips; each takes its time on a busy or distant machine."""
+    server = conninfo_to_dict(postgres_database)
+    counter = TurnCounter(int(str(server["port"])))
+    with counter.running():
+        url = make_conninfo(postgres_database, port=counter.port)
+        with PostgresStore.opened(url, connections=1) as store:
+            head = store.create("yard", b"file", NOTE, 0)
+
+            def turns(call: Callable[[], object]) -> int:
+                before = counter.turns
+                call()
+                time.sleep(0.05)
+                return counter.turns - before
+
+            first = Ids(((1, 5), (7, 9)), ((1, 5), (7, 9)))
+            # Lock and head, owners, all writes, commit; and two once the map is free again.
+            assert turns(lambda: store.append(head, b"one", NOTE, 9, first)) <= 6
+            assert turns(lambda: store.find("yard")) == 1
+            assert turns(lambda: store.owners(head.uid, [1, 8])) == 2
+            assert [each and each.author for each in store.owners(head.uid, [1, 8])] == ["ann"] * 2
 
 
 def test_import_may_take_longer_than_other_writes(
@@ -155,6 +237,7 @@ def test_lost_connection_is_logged_in_plain_words(
     postgres_database: str,
     caplog: pytest.LogCaptureFixture,
 ) -> None:
+    store.heads()  # the pool has connected
     postgres_server.execute(
         "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = "
         f"'{postgres_database.rpartition('/')[2]}'"
@@ -428,7 +511,7 @@ def test_commit_that_did_not_wait_for_its_standby_is_repeated(
     calls: list[bool] = []
     synced = store._database.transaction
 
-    def canceled_once(work: Callable[[Any, bool], Any]) -> Any:
+    def canceled_once(work: Callable[[Any, bool], Any], **named: Any) -> Any:
         def noted(rows: Any, again: bool) -> Any:
             calls.append(again)
             if len(calls) == 1:
@@ -436,14 +519,17 @@ def test_commit_that_did_not_wait_for_its_standby_is_repeated(
                 rows.execute(
                     "CREATE FUNCTION warn() RETURNS trigger LANGUAGE plpgsql AS $$BEGIN "
                     "RAISE WARNING 'canceling the wait' USING ERRCODE = '57014'; RETURN NULL; "
-                    "END$$; CREATE CONSTRAINT TRIGGER late AFTER UPDATE ON maps "
+                    "END$$"
+                )
+                rows.execute(
+                    "CREATE CONSTRAINT TRIGGER late AFTER UPDATE ON maps "
                     "DEFERRABLE INITIALLY DEFERRED FOR EACH ROW EXECUTE FUNCTION warn()"
                 )
             if len(calls) == 2:
                 rows.execute("DROP TRIGGER late ON maps")
             return work(rows, again)
 
-        return synced(noted)
+        return synced(noted, **named)
 
     monkeypatch.setattr(store._database, "transaction", canceled_once)
     second = store.append(head, b"one", NOTE, 0)
