@@ -120,5 +120,8 @@ def distinct(
 
 def same_place(one: Pose, other: Pose, at: Float64, parameters: LocalizationParameters) -> bool:
     """Return whether two poses put a point (3,) of the robot's frame in the same place."""
-    meters, angle = one.difference(other, at)
-    return meters < parameters.apart and bool(np.degrees(angle) < parameters.apart_yaw)
+    # Most pairs are apart: their angle is not needed.
+    if np.linalg.norm(one.apply(at) - other.apply(at)) >= parameters.apart:
+        return False
+    _, angle = one.difference(other, at)
+    return bool(np.degrees(angle) < parameters.apart_yaw)

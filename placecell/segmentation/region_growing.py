@@ -109,27 +109,73 @@ def _join(
         squared_radius: squared radius, square meters.
     """
     parent, root = np.arange(len(cells)), np.empty(len(cells), np.int64)
+    columns, firsts = np.empty(len(cells), np.int64), np.empty(len(cells) + 1, np.int64)
+    count = 0
+    for cell in range(len(cells)):
+        if count == 0 or cells[cell] // layers != columns[count - 1]:
+            columns[count], firsts[count] = cells[cell] // layers, cell
+            count += 1
+    firsts[count] = len(cells)
+    common = np.empty(count, np.int64)
     # The columns next to a cell first. They join nearly all that belongs together, so that most
-    # pairs farther apart are skipped by one comparison of their known roots.
+    # columns farther apart, and most pairs of the others, are skipped by comparing known roots.
     for reach in range(3):
-        for cell in range(len(cells)):
-            root[cell] = _find(parent, cell)
+        _find_roots(parent, firsts, root, common)
         for row_step in range(-reach, 1):
             for column_step in range(-reach, reach + 1):
-                step = (row_step * rows + column_step) * layers
+                step = row_step * rows + column_step
                 if step > 0 or max(abs(row_step), abs(column_step)) < reach:
                     continue  # each pair of columns is visited once
-                low = 0
-                for cell in range(len(cells)):
-                    lowest = cells[cell] + step - 2
-                    while cells[low] < lowest:
-                        low += 1
-                    other = low
-                    while other < cell and cells[other] <= lowest + 4:
-                        if root[cell] != root[other]:
-                            _unite(points, starts, cell, other, parent, squared_radius)
-                        other += 1
+                if reach == 1:  # these steps join most
+                    _find_roots(parent, firsts, root, common)
+                near = 0
+                for column in range(count):
+                    while columns[near] < columns[column] + step:
+                        near += 1
+                    is_joined = common[column] >= 0 and common[column] == common[near]
+                    if columns[near] == columns[column] + step and not is_joined:
+                        _unite_columns(
+                            points, starts, cells, firsts, column, near, step * layers, root,
+                            parent, squared_radius,
+                        )  # fmt: skip
     return parent
+
+
+@compiled_part
+def _find_roots(parent: Int64, firsts: Int64, root: Int64, common: Int64) -> None:
+    """Fill the root of each cell, and of all cells of a column; -1 if these have several."""
+    for column in range(len(common)):
+        common[column] = _find(parent, firsts[column])
+        for cell in range(firsts[column], firsts[column + 1]):
+            root[cell] = _find(parent, cell)
+            if root[cell] != common[column]:
+                common[column] = -1
+
+
+@compiled_part
+def _unite_columns(
+    points: Float32,
+    starts: Int64,
+    cells: Int64,
+    firsts: Int64,
+    column: int,
+    near: int,
+    step: int,
+    root: Int64,
+    parent: Int64,
+    squared_radius: float,
+) -> None:
+    """Join the regions of the cells of two columns that are two layers apart at most."""
+    low, end = firsts[near], firsts[near + 1]
+    for cell in range(firsts[column], firsts[column + 1]):
+        lowest = cells[cell] + step - 2
+        while low < end and cells[low] < lowest:
+            low += 1
+        other = low
+        while other < end and other < cell and cells[other] <= lowest + 4:
+            if root[cell] != root[other]:
+                _unite(points, starts, cell, other, parent, squared_radius)
+            other += 1
 
 
 @compiled_part
