@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -151,7 +152,9 @@ class RobotAgent:
             self._start()
         self._take_answer()
         self._follow_map()
-        step = self._perception.add(points, time_s, odom_pose, self._engine.describe)
+        # Only a map holds classes: a robot that sends none saves the time.
+        describe = partial(self._engine.describe, classified=self.settings.upload)
+        step = self._perception.add(points, time_s, odom_pose, describe)
         self._handle_jump(step)
         if step.keyframe is not None:
             self._handle_keyframe(step.keyframe, step.edit)

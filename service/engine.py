@@ -285,7 +285,11 @@ class Engine:
     # Recognition.
 
     def describe(
-        self, segments: Sequence[ArrayLike], sensors: ArrayLike, model: str | None = None
+        self,
+        segments: Sequence[ArrayLike],
+        sensors: ArrayLike,
+        model: str | None = None,
+        classified: bool = True,
     ) -> Descriptors:
         """Describe the segments of one scan.
 
@@ -293,13 +297,15 @@ class Engine:
             segments: points of each segment, (n, 3), meters, in one z-up frame.
             sensors: sensor position of each segment, (segments, 3), or one for all, (3,).
             model: id or name of a loaded model; the default model unless given.
+            classified: state the class of each segment, if the model has a semantic head.
 
         Raises:
             Problem: 409 if the model is not loaded, 413 if there are too many segments, 422 if no
                 segment can be described.
         """
         describer = self.models.named(model).describer
-        prepared = describer.prepare(Scan.from_clouds(segments, sensors), Timing())
+        scan = Scan.from_clouds(segments, sensors)
+        prepared = describer.prepare(scan, Timing(), classified=classified)
         return describer.describe_alone(prepared)
 
     def match(

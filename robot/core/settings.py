@@ -1,6 +1,7 @@
 """Settings of the agent."""
 
-from dataclasses import dataclass
+import uuid
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -48,8 +49,9 @@ class AgentSettings:
     Attributes:
         map: name of the map on the service.
         robot: name of the robot, stored with its segments.
-        session: id of the odometry frame. A restarted agent continues the session of its state
-            folder if this id is the same; odometry that restarts needs a new id.
+        session: id of the odometry frame; a new one unless given. A restarted agent continues the
+            session of its state folder if this id is the same; odometry that restarts needs a new
+            id. Two sessions never write one map, so their segments cannot take each other's ids.
         state: folder for the spool, the last pose and the pulled map; None keeps nothing, and what
             was not sent is lost with the process.
         maps_folder: folder of the pulled map; None: in the state folder.
@@ -71,7 +73,7 @@ class AgentSettings:
 
     map: str
     robot: str = "robot"
-    session: str = "session"
+    session: str = field(default_factory=lambda: uuid.uuid4().hex[:16])
     state: Path | None = None
     maps_folder: Path | None = None
     localize: bool = True

@@ -64,12 +64,15 @@ class LocalEngine:
         """Remove the map and the model from memory."""
         self._engine.close()
 
-    def describe(self, clouds: "Sequence[ArrayLike]", sensors: ArrayLike) -> UsableSegments:
+    def describe(
+        self, clouds: "Sequence[ArrayLike]", sensors: ArrayLike, classified: bool = True
+    ) -> UsableSegments:
         """Describe the segments of one capture.
 
         Args:
             clouds: points of each segment, (n, 3), meters, in one z-up frame.
             sensors: position of the sensor for each segment, (segments, 3).
+            classified: state the class of each segment, if the model has a semantic head.
 
         Returns:
             The segments that have a descriptor.
@@ -81,7 +84,7 @@ class LocalEngine:
         if not len(clouds):
             return none
         try:
-            found = self._engine.describe(clouds, sensors)
+            found = self._engine.describe(clouds, sensors, classified=classified)
         except Problem:  # No segment can be described.
             return none
         usable = found.usable

@@ -32,6 +32,7 @@ class FakeEngine:
         self.local_pose: Float64 | None = None
         self.mapped: Callable[[Float64], float | None] = lambda _: 0.0
         self.asked: list[FixRequest] = []
+        self.classified: list[bool] = []
         self.replaced: tuple[CompactMap, CompactMap] | None = None
 
     def take_replaced(self) -> tuple[CompactMap, CompactMap] | None:
@@ -42,11 +43,14 @@ class FakeEngine:
     def has_map(self) -> bool:
         return self.pulled is not None
 
-    def describe(self, clouds: Sequence[ArrayLike], sensors: ArrayLike) -> UsableSegments:
+    def describe(
+        self, clouds: Sequence[ArrayLike], sensors: ArrayLike, classified: bool = True
+    ) -> UsableSegments:
         arrays = [np.asarray(cloud, np.float64) for cloud in clouds]
         codes = np.array([[len(each) % 128] * 4 for each in arrays], np.int8).reshape(-1, 4)
         centroids = np.array([each.mean(axis=0) for each in arrays]).reshape(-1, 3)
-        classes = np.full(len(arrays), 1 + 31 * 3 + 27, np.uint8)
+        classes = np.full(len(arrays), 1 + 31 * 3 + 27, np.uint8) if classified else None
+        self.classified.append(classified)
         return UsableSegments(codes, centroids, np.arange(len(arrays)), classes)
 
     def set_map(self, content: CompactMap, etag: str) -> None:

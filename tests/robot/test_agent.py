@@ -305,3 +305,15 @@ def test_pose_moves_with_a_map_that_was_optimized(street: Street) -> None:
     engine.replaced = after, after
     drive(agent, street, [7.0], first_time=0.7)
     np.testing.assert_allclose(agent.map_to_odom.transform, moved @ OFFSET, atol=1e-6)
+
+
+def test_robot_that_sends_no_map_asks_for_no_classes(street: Street, tmp_path: Path) -> None:
+    asked = {}
+    for upload in (False, True):
+        engine = FakeEngine()
+        agent = new_agent(settings(upload=upload, state=tmp_path / str(upload)), FakeLink(), engine)
+        drive(agent, street, steps(0, 6))
+        agent.close()
+        asked[upload] = engine.classified
+    assert asked[False] == len(asked[False]) * [False] != []
+    assert asked[True] == len(asked[True]) * [True] != []
