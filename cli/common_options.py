@@ -39,6 +39,24 @@ Models = Annotated[
 TrainingDrives = Annotated[
     list[str], typer.Argument(help=SOURCE_HELP + TOWN_HELP, metavar="DRIVE[@FIRST:LAST]...")
 ]
+Classes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--classes",
+        metavar="CLASS",
+        help="Class of segments to keep, such as building or pole; repeatable. (default: all "
+        "segments)",
+    ),
+]
+Ignore = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--ignore",
+        metavar="CLASS",
+        help="Class of segments to leave out, or movable for vehicles and persons; repeatable. "
+        "(default: none)",
+    ),
+]
 Runs = Annotated[Path, typer.Option(help="Folder for checkpoints and training histories.")]
 Resume = Annotated[
     bool, typer.Option("--resume", help="Continue from the last checkpoint of this run.")

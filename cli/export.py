@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from cli.common_options import Classes, Ignore
 from cli.sources import clear_errors
 from cli.tables import progress_console
 from placecell.export.targets import ColorBy, Target
@@ -33,6 +34,8 @@ def export(
             "axis, counter-clockwise; geojson needs it.",
         ),
     ] = None,
+    classes: Classes = None,
+    ignore: Ignore = None,
     overwrite: Annotated[
         bool, typer.Option("--overwrite", help="Replace the file if it exists.")
     ] = False,
@@ -44,15 +47,19 @@ def export(
 
         placecell export data/city.safetensors --to las
     """
+    from functools import partial
+
     from cli.map_content import read_content
+    from placecell.core.segment_classes import ClassFilter
     from placecell.export.export import export as write
     from placecell.export.geo import parse_anchor
 
     with clear_errors():
         place = None if anchor is None else parse_anchor(anchor)
+        read = partial(read_content, wanted=ClassFilter.of(classes, ignore or ()))
         file = output or source.with_suffix(f".{to}")
         with progress_console().status(f"Writing {file}"):
-            content = write(source, to, file, color, place, overwrite, read_content)
+            content = write(source, to, file, color, place, overwrite, read)
         for remark in content.remarks:
             typer.echo(f"placecell: {source}: {remark}", err=True)
     typer.echo(

@@ -74,6 +74,22 @@ def robot(
             "neither stored nor localized.",
         ),
     ] = False,
+    ignore: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="CLASS",
+            help="Class of segments to leave out of localization, or movable for vehicles and "
+            "persons; repeatable. They are mapped all the same. (default: none)",
+        ),
+    ] = None,
+    unmapped: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="CLASS",
+            help="Class of segments that are not sent to the map, or movable; repeatable. "
+            "(default: none)",
+        ),
+    ] = None,
     keyframe_meters: Annotated[
         float,
         typer.Option(
@@ -183,6 +199,8 @@ def robot(
             localize_map=localize_map,
             upload_map=upload_map,
             keep_moving=keep_moving,
+            ignore=tuple(ignore or ()),
+            unmapped=tuple(unmapped or ()),
             keyframe_meters=keyframe_meters,
             localize_meters=localize_meters,
             spool_bytes=int(spool_mb * 1e6),

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from placecell_client.maps.follow import moved_at
 
-from placecell.core.types import Float32, Float64, Int8
+from placecell.core.types import Float32, Float64
 from robot.core.link import FixAnswer, FixRequest, Link
 from robot.core.link_monitor import LinkMonitor
 from robot.core.map_to_odom import MapToOdom
@@ -263,6 +263,7 @@ class RobotAgent:
             model_id=self._engine.model_id,
             preprocessing=self._engine.preprocessing,
             keep_moving=settings.keep_moving,
+            unmapped=settings.unmapped,
         )
         return begun, 0
 
@@ -351,10 +352,10 @@ class RobotAgent:
         if not len(keyframe.codes):
             self._miss("no segment is in sight")
             return
-        if self._localizer.ask(self._request(keyframe.codes, keyframe.centroids)):
+        if self._localizer.ask(self._request(keyframe)):
             self._last_request, self._asks_now = meters, False
 
-    def _request(self, codes: Int8, centroids: Float64) -> FixRequest:
+    def _request(self, keyframe: Keyframe) -> FixRequest:
         assert self._time is not None
         meters = self._perception.meters
         return FixRequest(
@@ -363,10 +364,12 @@ class RobotAgent:
             odom_pose=self._odom_pose,
             part=self._perception.part,
             model_id=self._engine.model_id,
-            codes=codes,
-            centroids=centroids,
+            codes=keyframe.codes,
+            centroids=keyframe.centroids,
             map=self.settings.searched_map,
             session=f"{self.settings.robot}-{self.settings.session}-{self._perception.part}"[-64:],
+            classes=keyframe.classes,
+            ignore=self.settings.ignore,
         )
 
     def _take_answer(self) -> None:

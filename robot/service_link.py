@@ -51,9 +51,13 @@ class ServiceLink:
             np.zeros((len(request.codes), 0), np.float32),
             request.centroids,
             {},
+            classes=request.classes,
         )
+        ignore = request.ignore or None
         try:
-            found = self._asking.localize(seen, maps=[request.map], session=request.session)
+            found = self._asking.localize(
+                seen, maps=[request.map], session=request.session, ignore=ignore
+            )
         except (ServiceError, httpx.TransportError) as error:
             raise as_link_error(error) from error
         best = found.maps[0] if found.maps else None

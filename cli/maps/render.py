@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from cli.common_options import Classes, Ignore
 from cli.maps.connection import LOCAL, Url, service
 from cli.sources import clear_errors, show
 from placecell.export.targets import ColorBy
@@ -41,6 +42,8 @@ def render(
             "else id)"
         ),
     ] = None,
+    classes: Classes = None,
+    ignore: Ignore = None,
     url: Url = LOCAL,
 ) -> None:
     """Decode the shapes of all segments of a map into a colored cloud or a picture.
@@ -50,6 +53,8 @@ def render(
         placecell maps render yard -o yard.ply
     """
     with clear_errors():
+        from cli.map_content import filtered
+        from placecell.core.segment_classes import ClassFilter
         from placecell.export.export import write_content
         from placecell.shapes.decoder import ShapeDecoder
         from service.clouds.map_shapes import rendered_content
@@ -57,7 +62,8 @@ def render(
         suffix = output.suffix.lower().removeprefix(".")
         if suffix not in (*TARGETS, "png"):
             raise ValueError(f"{output}: unknown format. Name a file .ply, .las, .pcd or .png.")
-        found = _content(source, url)
+        wanted = ClassFilter.of(classes, ignore or ())
+        found = filtered(_content(source, url), wanted, source)
         folder, manifest = _model_of(found, model)
         content = rendered_content(found, ShapeDecoder(folder, manifest), show)
         chosen = color or ("id" if found.classes is None else "class")

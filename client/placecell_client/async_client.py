@@ -154,9 +154,12 @@ class AsyncClient(BaseClient):
         color: str = "id",
         anchor: str | None = None,
         version: int | None = None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> bytes:
         """See `Client.export`."""
-        return await self._send(self._calls.export(name, to, color, anchor, version))
+        call = self._calls.export(name, to, color, anchor, version, classes, ignore)
+        return await self._send(call)
 
     async def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
         """See `Client.describe`."""
@@ -282,13 +285,27 @@ class AsyncClient(BaseClient):
         """See `Client.changes`."""
         return await self._send(self._calls.changes(name, since, cursor, limit, moved))
 
-    async def get_map(self, name: str, version: int | None = None) -> CompactMap:
+    async def get_map(
+        self,
+        name: str,
+        version: int | None = None,
+        *,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
+    ) -> CompactMap:
         """See `Client.get_map`."""
-        return await self._send(self._calls.get_map(name, version))
+        return await self._send(self._calls.get_map(name, version, classes, ignore))
 
-    async def get_map_file(self, name: str, version: int | None = None) -> bytes:
+    async def get_map_file(
+        self,
+        name: str,
+        version: int | None = None,
+        *,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
+    ) -> bytes:
         """See `Client.get_map_file`."""
-        return await self._send(self._calls.get_map_file(name, version))
+        return await self._send(self._calls.get_map_file(name, version, classes, ignore))
 
     async def versions(self, name: str, limit: int = 100) -> tuple[MapVersion, ...]:
         """See `Client.versions`."""

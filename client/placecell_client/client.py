@@ -223,18 +223,25 @@ class Client(BaseClient):
         color: str = "id",
         anchor: str | None = None,
         version: int | None = None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> bytes:
         """Return a map as a file for another program, as `placecell export` writes it.
 
         Args:
             name: Name of the map.
             to: Format: `ply`, `las`, `pcd`, `mcap`, `geojson`, `tum` or `g2o`.
-            color: Number of a segment that decides its color: `id`, `robot` or `group`.
+            color: Number of a segment that decides its color: `id`, `robot`, `group` or
+                `class`.
             anchor: Place of the map's origin, `LAT,LON` or `LAT,LON,YAW_DEG`, for `geojson`.
                 Default: the anchor of the map.
             version: Sequence number of a version. Default: the newest.
+            classes: Only segments of these classes (`placecell_client.classes.CLASSES`). A segment
+                whose class is unknown has none. Default: all segments.
+            ignore: Leave out segments of these classes; `movable` names vehicles and persons.
         """
-        return self._send(self._calls.export(name, to, color, anchor, version))
+        call = self._calls.export(name, to, color, anchor, version, classes, ignore)
+        return self._send(call)
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Description:
         """Compute the descriptors of the segments of one scan.
@@ -512,26 +519,46 @@ class Client(BaseClient):
         """
         return self._send(self._calls.changes(name, since, cursor, limit, moved))
 
-    def get_map(self, name: str, version: int | None = None) -> CompactMap:
+    def get_map(
+        self,
+        name: str,
+        version: int | None = None,
+        *,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
+    ) -> CompactMap:
         """Download a map and decode it.
 
         Args:
             name: Name of the map.
             version: Sequence number of an earlier version. Default: the newest.
+            classes: Only segments of these classes (`placecell_client.classes.CLASSES`). A segment
+                whose class is unknown has none. Default: all segments.
+            ignore: Leave out segments of these classes; `movable` names vehicles and persons.
 
         Raises:
             MapFileError: The file has a version that this client cannot read.
         """
-        return self._send(self._calls.get_map(name, version))
+        return self._send(self._calls.get_map(name, version, classes, ignore))
 
-    def get_map_file(self, name: str, version: int | None = None) -> bytes:
+    def get_map_file(
+        self,
+        name: str,
+        version: int | None = None,
+        *,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
+    ) -> bytes:
         """Download a map as a file.
 
         Args:
             name: Name of the map.
             version: Sequence number of an earlier version. Default: the newest.
+            classes: Only segments of these classes (`placecell_client.classes.CLASSES`). A segment
+                whose class is unknown has none. Default: all segments.
+            ignore: Leave out segments of these classes; `movable` names vehicles and persons.
         """
-        return self._send(self._calls.get_map_file(name, version))
+        return self._send(self._calls.get_map_file(name, version, classes, ignore))
 
     def versions(self, name: str, limit: int = 100) -> tuple[MapVersion, ...]:
         """Return the kept versions of a map, newest first, at most `limit`."""

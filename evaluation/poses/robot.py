@@ -122,7 +122,11 @@ class Robot:
         return np.asarray(points @ self.to_common[:3, :3].T + self.to_common[:3, 3])
 
     def build_map(
-        self, client: SegmentDescriber, frame: str, wanted: ClassFilter | None = None
+        self,
+        client: SegmentDescriber,
+        frame: str,
+        wanted: ClassFilter | None = None,
+        with_classes: bool = False,
     ) -> CompactMap:
         """Build a map of the drive from all segments that are no duplicates.
 
@@ -130,12 +134,13 @@ class Robot:
             client: describes the segments.
             frame: name of the map's coordinate frame.
             wanted: filter of the segments by their class; None keeps all.
+            with_classes: whether the map has the column `classes`; the model must have classes.
 
         Raises:
             ValueError: the drive has no segments.
         """
         self.check_segments()
-        codes, centroids, frame_index = [], [], []
+        codes, centroids, frame_index, classes = [], [], [], []
         scans: list[int] = []
         model_id = ""
         for scan, segments, distinct in self.views():
@@ -147,6 +152,9 @@ class Robot:
             if wanted is not None and description.classes is not None:
                 kept = distinct & wanted.keeps(description.classes)
             assert description.centroids is not None
+            if with_classes:
+                assert description.classes is not None
+                classes.append(description.classes[kept])
             codes.append(description.codes[kept])
             centroids.append(description.centroids[kept])
             frame_index.append(np.full(int(kept.sum()), len(scans), dtype=np.uint32))
@@ -166,6 +174,7 @@ class Robot:
             frame_times=self.drive.times[scans],
             frame_positions=poses[:, :3, 3],
             frame_orientations=Rotation.from_matrix(poses[:, :3, :3]).as_quat().astype(np.float32),
+            classes=np.concatenate(classes) if with_classes else None,
         )
 
 

@@ -130,6 +130,11 @@ class ClassFilter:
             return None
         return cls(wanted - unwanted, classes is None)
 
+    @property
+    def label(self) -> str:
+        """Name of the filter; equal filters have equal names."""
+        return ".".join([*sorted(self.kept), *["unknown"] * self.keeps_unknown])
+
     def keeps(self, codes: UInt8) -> Bool:
         """Return whether to keep each segment of a map."""
         if self.keeps_unknown:

@@ -5,7 +5,7 @@ from typing import Protocol
 
 from placecell_client import MapCopy
 
-from placecell.core.types import Float64, Int8
+from placecell.core.types import Float64, Int8, UInt8
 from robot.core.map_to_odom import MapToOdom
 from robot.core.status import AgentStatus, FixSource
 
@@ -54,6 +54,8 @@ class FixRequest:
         centroids: their centroids in the odometry frame, float64 (n, 3), meters.
         map: name of the map to search.
         session: id of the odometry frame; requests of one session support each other.
+        classes: class of each segment, uint8 (n,); None if the model has no semantic head.
+        ignore: classes of segments to leave out, in the map and in the request.
     """
 
     time: float
@@ -65,6 +67,8 @@ class FixRequest:
     centroids: Float64
     map: str
     session: str
+    classes: UInt8 | None = None
+    ignore: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

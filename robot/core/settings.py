@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from placecell.core.parameters import PROTOCOL_V1, Parameters
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.types import Float64
 from placecell.descriptors.shipped_models import DEFAULT_MODEL
 
@@ -61,6 +62,9 @@ class AgentSettings:
         upload_map: map that receives the segments; None: `map`. If a map of that name is another's,
             the robot begins one with the next free name, such as `map-robot`.
         keep_moving: store and localize segments that move while they are seen, such as cars.
+        ignore: classes of segments to leave out of localization, in the map and in the requests;
+            `movable` names vehicles and persons.
+        unmapped: classes of segments that are not stored.
         keyframe_meters: distance between two keyframes, at which segments are extracted.
         localize_meters: distance between two requests while tracking; until then each keyframe
             makes one.
@@ -81,6 +85,8 @@ class AgentSettings:
     localize_map: str | None = None
     upload_map: str | None = None
     keep_moving: bool = False
+    ignore: tuple[str, ...] = ()
+    unmapped: tuple[str, ...] = ()
     keyframe_meters: float = 2.0
     localize_meters: float = 4.0
     spool_bytes: int = 1 << 30
@@ -93,8 +99,10 @@ class AgentSettings:
         """Check the values.
 
         Raises:
-            ValueError: a name is empty, or a number is not positive.
+            ValueError: a name is empty or no class, or a number is not positive.
         """
+        for classes in (self.ignore, self.unmapped):
+            ClassFilter.of(None, classes)
         for name in ("map", "robot", "session"):
             if not getattr(self, name):
                 raise ValueError(f"Invalid {name} '': expected a name.")

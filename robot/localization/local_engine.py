@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from placecell_client import CompactMap
 from scipy.spatial import cKDTree
 
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.types import Float64
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, model_folder
 from robot.core.link import FixAnswer, FixRequest
@@ -162,9 +163,12 @@ class LocalEngine:
             name = self._name
         if not name:
             return FixAnswer(request, "local", None, None, 0.0, "no map was pulled")
-        seen = Descriptors(request.model_id, request.codes, None, request.centroids, {})
+        seen = Descriptors(
+            request.model_id, request.codes, None, request.centroids, {}, classes=request.classes
+        )
+        wanted = ClassFilter.of(None, request.ignore)
         try:
-            found = self._engine.localize(seen, maps=[name], session=request.session)
+            found = self._engine.localize(seen, maps=[name], session=request.session, wanted=wanted)
         except Problem as error:
             return FixAnswer(request, "local", None, None, 0.0, str(error))
         best = found[0].localization if len(found) else None

@@ -5,7 +5,7 @@ a run with a broken link, or one that was killed and continued, makes the same e
 without faults.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 from zlib import crc32
 
@@ -13,6 +13,7 @@ import numpy as np
 from placecell_client import CompactMap, Delta, encode_delta
 from scipy.spatial.transform import Rotation
 
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.segments import stored_extents
 from placecell.core.types import Float32, Float64, Int8, Int64, UInt8
 from placecell.segmentation.incremental import LiveSegments
@@ -77,6 +78,20 @@ class SeenSegments:
             preprocessing,
             found.classes,
             (high - low)[found.usable],
+        )
+
+    def wanted(self, wanted: ClassFilter | None) -> Self:
+        """Return the segments that a filter keeps; without classes, all."""
+        if wanted is None or self.classes is None:
+            return self
+        rows = np.flatnonzero(wanted.keeps(self.classes))
+        return replace(
+            self,
+            ids=self.ids[rows],
+            codes=self.codes[rows],
+            centroids=self.centroids[rows],
+            classes=self.classes[rows],
+            sides=None if self.sides is None else self.sides[rows],
         )
 
 

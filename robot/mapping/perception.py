@@ -12,7 +12,8 @@ from typing import Literal, Self
 import numpy as np
 
 from placecell.core.parameters import Parameters
-from placecell.core.types import Float32, Float64, Int8
+from placecell.core.segment_classes import ClassFilter
+from placecell.core.types import Float32, Float64, Int8, UInt8
 from placecell.segmentation.incremental import IncrementalSegmentation, LiveSegments
 from robot.core.usable_segments import UsableSegments
 from robot.localization.scan_jump import ScanAgreement, object_columns
@@ -42,11 +43,13 @@ class Keyframe:
         live: the segments; without those that have moved, unless they are kept.
         codes: descriptors of those that have one, int8 (n, code bytes).
         centroids: their centroids, float64 (n, 3), meters.
+        classes: their classes, uint8 (n,); None if the model has no semantic head.
     """
 
     live: LiveSegments
     codes: Int8
     centroids: Float64
+    classes: UInt8 | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,6 +78,7 @@ class Perception:
         keyframes: number of keyframes.
         part: number of jumps so far.
         keep_moving: whether segments that move while they are seen are stored and localized.
+        unmapped: classes of segments that are not stored.
     """
 
     map_out: EditMaker
@@ -83,6 +87,7 @@ class Perception:
     model_id: str
     preprocessing: str
     keep_moving: bool = False
+    unmapped: tuple[str, ...] = ()
     agreement: ScanAgreement = field(default_factory=ScanAgreement)
     scans: int = 0
     meters: float = 0.0
@@ -103,8 +108,9 @@ class Perception:
         model_id: str,
         preprocessing: str,
         keep_moving: bool = False,
+        unmapped: tuple[str, ...] = (),
     ) -> Self:
-        """Begin a session; `keep_moving` keeps segments that move while they are seen."""
+        """Begin a session; the attributes have the arguments' names."""
         return cls(
             EditMaker(robot, session),
             Keyframes(keyframe_meters, max(1, parameters.accumulated_scans // 2)),
@@ -112,6 +118,7 @@ class Perception:
             model_id,
             preprocessing,
             keep_moving,
+            unmapped,
         )
 
     @classmethod
@@ -182,8 +189,9 @@ class Perception:
         self.segmentation.take_final_views()  # Views of all sides are stored, not only the best.
         found = describe(clouds_of(live), live.segments.sensors)
         seen = SeenSegments.of(found, live, self.model_id, self.preprocessing)
-        edit = self.map_out.add(seen, capture, self.meters, every.ids[moves])
-        return Keyframe(live, found.codes, found.centroids), edit
+        mapped = seen.wanted(ClassFilter.of(None, self.unmapped))
+        edit = self.map_out.add(mapped, capture, self.meters, every.ids[moves])
+        return Keyframe(live, found.codes, found.centroids, found.classes), edit
 
     def _take(self, points: Float32, capture: Capture) -> None:
         self.segmentation.add(points, capture.odom_pose)

@@ -1,16 +1,18 @@
 """Parsing of requests for recognition: from their schemas to scans and descriptors."""
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol
 
 import numpy as np
+from fastapi import Depends
+from fastapi import Query as QueryValue
 from numpy.typing import ArrayLike
 from placecell_client.maps.compact_map import COORDINATE_LIMIT
 
 from placecell.core.segment_classes import CLASSES, ClassFilter, encoded
 from placecell.core.types import Float64, Int8, Int64, UInt8
 from service.api.schemas.localization import LocalizeQuery
-from service.api.schemas.recognition import ClassIn, MatchQuery, Point
+from service.api.schemas.recognition import ClassIn, ClassName, IgnoredName, MatchQuery, Point
 from service.api.state import State
 from service.core.auth import Principal
 from service.core.problems import Problem, invalid_value
@@ -18,6 +20,31 @@ from service.core.timing import Timing
 from service.inference.describer import Descriptors
 from service.inference.scan import Scan
 from service.search.query import Query
+
+
+async def wanted_classes(
+    classes: Annotated[
+        list[ClassName] | None,
+        QueryValue(
+            max_length=32,
+            description="Only segments of this class; repeatable. A segment whose class is unknown "
+            "has none. Default: all segments.",
+        ),
+    ] = None,
+    ignore: Annotated[
+        list[IgnoredName] | None,
+        QueryValue(
+            max_length=32,
+            description="Leave out segments of this class; repeatable. `movable` names vehicle and "
+            "person. A segment whose class is unknown is never left out.",
+        ),
+    ] = None,
+) -> ClassFilter | None:
+    """Return the filter of a request's query parameters; None keeps all segments."""
+    return ClassFilter.of(classes, ignore or ())
+
+
+WantedClasses = Annotated[ClassFilter | None, Depends(wanted_classes)]
 
 
 class HasPoints(Protocol):

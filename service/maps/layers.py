@@ -292,6 +292,11 @@ def classes_of(content: CompactMap) -> UInt8:
     return np.zeros(len(content), np.uint8) if content.classes is None else content.classes
 
 
+def of_wanted(content: CompactMap, wanted: ClassFilter | None) -> CompactMap:
+    """Return a map without the segments that a filter leaves out; it keeps its captures."""
+    return content if wanted is None else take(content, wanted.keeps(classes_of(content)))
+
+
 def robots_of(content: CompactMap) -> Counter[str]:
     """Return the number of segments of each robot."""
     return _counted(content.robots, content.robot)

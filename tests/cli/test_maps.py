@@ -220,3 +220,24 @@ def test_B9_push_sends_a_large_map_file_in_parts(tmp_path: Path, yard: CompactMa
         assert told["map"] == "yard"
         assert told["first"] + told["count"] == 1 << 32
         assert "ids from" in good("reset-ids", "yard", *at)
+
+
+def test_pull_with_a_filter_writes_a_part_that_cannot_be_pushed_by_mistake(
+    address: str, tmp_path: Path, yard: CompactMap, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PLACECELL_URL", address)
+    classes = np.where(np.arange(300) < 40, 94, 1).astype(np.uint8)  # 94: a vehicle
+    file, part = tmp_path / "parked.map", tmp_path / "part.map"
+    file.write_bytes(encode(replace(yard, classes=classes)))
+    good("push", file)
+    assert "holds 260 segments" in good("pull", "parked", part, "--ignore", "movable")
+    assert len(decode(part.read_bytes())) == 260
+    assert not part.with_name("part.map.etag").exists()
+    assert "428" in bad("push", part, "parked")
+    assert "holds 40 segments" in good("pull", "parked", part, "--classes", "vehicle")
+    copy = tmp_path / "copy.map"
+    good("pull", "parked", copy)
+    assert "Name another file" in bad("pull", "parked", copy, "--ignore", "movable")
+    assert copy.read_bytes() == file.read_bytes()
+    assert "Invalid class 'car'" in bad("pull", "parked", part, "--classes", "car")
+    good("delete", "parked", "--yes")

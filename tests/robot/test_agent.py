@@ -57,6 +57,21 @@ def test_two_agreeing_fixes_make_the_pose_known(street: Street) -> None:
     assert agent.close().meters_until_first_fix is not None
 
 
+def test_ignored_classes_are_asked_for_and_unmapped_ones_are_not_stored(street: Street) -> None:
+    # The engine of these tests calls everything a vehicle.
+    link = FakeLink()
+    agent = new_agent(settings(upload=True, ignore=("movable",), unmapped=("vehicle",)), link)
+    drive(agent, street, steps(0, 12))
+    agent.finish()
+    assert agent.wait_for_uploads(1.0)
+    assert {each.ignore for each in link.asked} == {("movable",)}
+    assert all(
+        each.classes is not None and len(each.classes) == len(each.codes) > 0 for each in link.asked
+    )
+    assert agent.close().segments == 0
+    assert not link.maps
+
+
 def test_without_any_fix_there_is_no_pose(street: Street) -> None:
     agent = new_agent(settings(), FakeLink())
     drive(agent, street, steps(0, 12))

@@ -1,9 +1,12 @@
 """Edits of the robot's own map: views are added, and those of segments that moved are removed."""
 
+from dataclasses import replace
+
 import numpy as np
 from placecell_client import CompactMap, decode_delta
 from placecell_client.maps.edit import apply
 
+from placecell.core.segment_classes import ClassFilter
 from placecell.core.segments import Segments
 from placecell.segmentation.incremental import LiveSegments
 from robot.core.usable_segments import UsableSegments
@@ -58,6 +61,19 @@ def test_segment_that_ended_or_another_part_is_not_removed() -> None:
     assert add(edits, 4.0, 2, moved=(1,)) is None
     edits.begin_part()
     assert add(edits, 6.0, moved=(2,)) is None
+
+
+def test_segments_of_unwanted_classes_are_left_out_with_all_their_columns() -> None:
+    every = replace(seen(1, 2, 3), classes=np.array([0, 121, 1], np.uint8))  # 121: a vehicle
+    kept = every.wanted(ClassFilter.of(None, ["movable"]))
+    assert kept.ids.tolist() == [1, 3]
+    assert kept.centroids[:, 0].tolist() == [1.0, 3.0]
+    assert kept.classes is not None
+    assert kept.classes.tolist() == [0, 1]
+    assert len(kept.codes) == 2
+    assert every.wanted(None) is every
+    unknown = seen(1)
+    assert unknown.wanted(ClassFilter.of(["pole"])) is unknown
 
 
 def test_edit_carries_the_classes_of_the_new_views() -> None:

@@ -99,6 +99,8 @@ def test_empty_names_are_refused(name: str) -> None:
 def test_distances_that_are_not_positive_are_refused() -> None:
     with pytest.raises(ValueError, match="keyframe_meters"):
         AgentSettings("yard", keyframe_meters=0)
+    with pytest.raises(ValueError, match=r"Invalid class 'cars'\. Expected building"):
+        AgentSettings("yard", ignore=("cars",))
 
 
 def test_robot_that_maps_ignores_fixes() -> None:

@@ -1,6 +1,9 @@
 """Link through the HTTP client: which failures are worth another try."""
 
+from dataclasses import replace
+
 import httpx
+import msgpack  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 from placecell_client import Client, MapCopy, ServiceError
@@ -54,6 +57,23 @@ def test_temporary_refusals_are_worth_another_try(status: int, again: bool) -> N
     else:
         assert isinstance(caught.value, RefusedError)
         assert (caught.value.status, caught.value.kind) == (status, "other-frame")
+
+
+def test_request_states_the_classes_to_ignore_and_those_of_its_segments() -> None:
+    sent: list[bytes] = []
+
+    def handler(request: httpx.Request) -> httpx.Response:
+        sent.append(request.content)
+        return httpx.Response(503)
+
+    asked = replace(REQUEST, classes=np.array([121], np.uint8), ignore=("movable",))
+    for each in (asked, REQUEST):
+        with pytest.raises(LinkError):
+            link_of(handler).localize(each)
+    body = msgpack.unpackb(sent[0])
+    assert body["ignore"] == ["movable"]
+    assert body["query_classes"] == b"y"
+    assert "ignore" not in msgpack.unpackb(sent[1])
 
 
 def test_unreachable_service_is_told_as_not_reached() -> None:

@@ -169,10 +169,18 @@ class Calls:
         return Call("GET", path, parsing.version_changes)
 
     def export(
-        self, name: str, to: str, color: str, anchor: str | None, version: int | None
+        self,
+        name: str,
+        to: str,
+        color: str,
+        anchor: str | None,
+        version: int | None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
     ) -> Call[bytes]:
         """Build `GET /maps/{map}/export`."""
-        path = _path(name, "/export", to=to, color=color, anchor=anchor, version=version)
+        wanted = _filter(classes, ignore)
+        path = _path(name, "/export", to=to, color=color, anchor=anchor, version=version, **wanted)
         return Call("GET", path, parsing.exported)
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Call[Description]:
@@ -344,14 +352,27 @@ class Calls:
         # Without a condition it changes only segments of the robot itself.
         return replace(call, repeatable=if_match != ANY)
 
-    def get_map(self, name: str, version: int | None) -> Call[CompactMap]:
+    def get_map(
+        self,
+        name: str,
+        version: int | None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
+    ) -> Call[CompactMap]:
         """Build `GET /maps/{map}`; the result is the decoded map."""
-        path = _path(name, version=version)
+        path = _path(name, version=version, **_filter(classes, ignore))
         return Call("GET", path, lambda answer: decode(parsing.file(answer)))
 
-    def get_map_file(self, name: str, version: int | None) -> Call[bytes]:
+    def get_map_file(
+        self,
+        name: str,
+        version: int | None,
+        classes: Sequence[str] | None = None,
+        ignore: str | Sequence[str] | None = None,
+    ) -> Call[bytes]:
         """Build `GET /maps/{map}`."""
-        return Call("GET", _path(name, version=version), parsing.file)
+        path = _path(name, version=version, **_filter(classes, ignore))
+        return Call("GET", path, parsing.file)
 
     def changes(
         self, name: str, since: int | str, cursor: str | None, limit: int, moved: bool
@@ -676,7 +697,7 @@ def _search(
 
 
 def _filter(classes: Sequence[str] | None, ignore: str | Sequence[str] | None) -> dict[str, Any]:
-    """Return the part of a body that filters segments by class; older services have no such."""
+    """Return the part of a request that filters segments by class; older services have no such."""
     wanted: dict[str, Any] = {}
     if classes is not None:
         wanted["classes"] = [classes] if isinstance(classes, str) else list(classes)
@@ -711,7 +732,7 @@ def _path(name: str, way: str = "", /, **query: object) -> str:
     """Return the path of a map or of a part of it; query values that are None are left out."""
     path = f"/maps/{_quoted(name)}{way}"
     given = {key: value for key, value in query.items() if value is not None}
-    return f"{path}?{urlencode(given)}" if given else path
+    return f"{path}?{urlencode(given, doseq=True)}" if given else path
 
 
 def _quoted(name: str) -> str:

@@ -8,6 +8,7 @@ from fastapi.responses import JSONResponse
 from placecell_client import encode
 from placecell_client.maps.map_file import MEDIA_TYPE
 
+from placecell.core.segment_classes import ClassFilter
 from service.api.admission.admission import client_of
 from service.api.admission.byte_range import asked_range
 from service.api.body.body import JSON, OCTETS, prefers, render
@@ -15,11 +16,13 @@ from service.api.body.problem_json import documented
 from service.api.dependencies import ConditionsOf, MapWrite, MapWriteOf, PrincipalOf, StateOf
 from service.api.openapi import file_body
 from service.api.path_parameters import Name
+from service.api.query_parsing import WantedClasses
 from service.api.responses import detail_of, summary_of
 from service.api.schemas.maps import MapDetailOut, MapOut, MapsResponse
 from service.api.state import State
 from service.core.auth import Principal
 from service.maps.history import load_version, version_file, version_tag
+from service.maps.layers import of_wanted
 from service.maps.snapshot import MapSnapshot
 from service.maps.visibility import hide_names, is_hidden_from
 from service.maps.writes.writer import WriteResult
@@ -97,6 +100,7 @@ async def get_map(
     state: StateOf,
     principal: PrincipalOf,
     conditions: ConditionsOf,
+    wanted: WantedClasses,
     version: Annotated[
         int | None,
         Query(ge=1, le=1 << 53, description="Sequence of a version. Default: the newest version."),
@@ -112,24 +116,28 @@ async def get_map(
     (with `If-Range: "ETAG"`), and a client reads single columns of a large map. If several ranges
     are asked for, the answer is the whole file.
 
+    `classes` and `ignore` leave out segments by their class. Such a file has an ETag of its own,
+    with which it cannot replace the map by mistake.
+
     If a source map of the segments is outside the scope of the key, a pseudonym replaces its name.
     Writing the file to this map restores the name.
     """
     principal.check_map(name)
     snapshot = state.engine.maps.get(name)
     client = client_of(request)
-    if version is None and prefers(request, JSON, MEDIA_TYPE):
+    if version is None and wanted is None and prefers(request, JSON, MEDIA_TYPE):
         async with state.lanes.reads.enter(request):
             content = await state.run(_detail, state, principal, snapshot)
         return await state.answers.respond(content, client, JSON, {"Vary": "Accept"})
-    if version is None and conditions.is_known(snapshot.tag):
+    if version is None and wanted is None and conditions.is_known(snapshot.tag):
         return Response(status_code=304, headers={"ETag": f'"{snapshot.tag}"'})
     sequence = snapshot.head.sequence if version is None else version
     async with state.lanes.reads.enter(request):
         tag = await state.run(version_tag, state.engine.maps.store, snapshot, sequence)
+        tag += "" if wanted is None else f"-{wanted.label}"
         if conditions.is_known(tag):
             return Response(status_code=304, headers={"ETag": f'"{tag}"'})
-        file_name, make = _file(state, principal, snapshot, sequence, tag)
+        file_name, make = _file(state, principal, snapshot, sequence, tag, wanted)
         return await state.answers.respond_shared(
             file_name,
             make,
@@ -184,20 +192,29 @@ def _detail(state: State, principal: Principal, snapshot: MapSnapshot) -> bytes:
 
 
 def _file(
-    state: State, principal: Principal, snapshot: MapSnapshot, sequence: int, tag: str
+    state: State,
+    principal: Principal,
+    snapshot: MapSnapshot,
+    sequence: int,
+    tag: str,
+    wanted: ClassFilter | None,
 ) -> tuple[str, Callable[[], bytes]]:
     """Return a name for a version's file and its maker; keys that see the same share the name."""
     store, uid = state.engine.maps.store, snapshot.head.uid
     name = f"{uid} {tag}"
     newest = sequence == snapshot.head.sequence
-    if principal.covers_all or (newest and not is_hidden_from(principal, snapshot.layers)):
+    sees_all = principal.covers_all or (newest and not is_hidden_from(principal, snapshot.layers))
+    if sees_all and wanted is None:
         return name, lambda: version_file(store, snapshot, sequence)[0]
 
     def make() -> bytes:
         layers, _ = load_version(store, snapshot, sequence)
-        return encode(hide_names(principal, uid, layers.content()))
+        content = layers.content()
+        if not sees_all:
+            content = hide_names(principal, uid, content)
+        return encode(of_wanted(content, wanted))
 
-    return f"{name} {' '.join(principal.key.maps)}", make
+    return name if sees_all else f"{name} {' '.join(principal.key.maps)}", make
 
 
 def _listed(state: State, principal: Principal) -> bytes:

@@ -8,16 +8,19 @@ from fastapi import APIRouter, Query, Request, Response
 from placecell_client import CompactMap
 
 from placecell.core.geodesy import GeoAnchor
+from placecell.core.segment_classes import ClassFilter
 from placecell.export.geo import parse_anchor
 from placecell.export.targets import ColorBy, Target
 from service.api.admission.admission import client_of
 from service.api.body.problem_json import documented
 from service.api.dependencies import ConditionsOf, PrincipalOf, StateOf
 from service.api.path_parameters import Name
+from service.api.query_parsing import WantedClasses
 from service.api.state import State
 from service.clouds.map_export import MEDIA_TYPES, check_exportable, exported
 from service.core.problems import invalid_value
 from service.maps.history import load_version, version_tag
+from service.maps.layers import of_wanted
 from service.maps.snapshot import MapSnapshot
 
 router = APIRouter(tags=["maps"])
@@ -46,6 +49,7 @@ async def export_map(
     state: StateOf,
     principal: PrincipalOf,
     conditions: ConditionsOf,
+    wanted: WantedClasses,
     to: Annotated[Target, Query(description="Format of the file.")],
     color: Annotated[
         ColorBy, Query(description="Number of a segment that decides its color.")
@@ -66,7 +70,8 @@ async def export_map(
     """Return the map as `placecell export` writes it, for CloudCompare, QGIS, Foxglove and others.
 
     `ply`, `las`, `pcd` and `mcap` have one point for each segment, in colors; `geojson` has their
-    places on the Earth; `tum` and `g2o` have the poses of the captures.
+    places on the Earth; `tum` and `g2o` have the poses of the captures. `classes` and `ignore`
+    leave out segments by their class, but no captures.
     """
     principal.check_map(name)
     snapshot = state.engine.maps.get(name)
@@ -76,11 +81,12 @@ async def export_map(
         tag = await state.run(version_tag, state.engine.maps.store, snapshot, sequence)
         # Weak: the same version may be written in other bytes, such as another date.
         tag = f"{tag}-{to}-{color}-{crc32(repr(place).encode()):08x}"
+        tag += "" if wanted is None else f"-{wanted.label}"
         headers = {"ETag": f'W/"{tag}"'}
         if conditions.is_known(tag):
             return Response(status_code=304, headers=headers)
         check_exportable(len(snapshot), to, place)
-        load = partial(_content, state, snapshot, sequence)
+        load = partial(_content, state, snapshot, sequence, wanted)
         return await state.answers.respond_shared(
             f"export {snapshot.head.uid} {tag}",
             lambda: exported(load, to, color, place, state.settings.data_dir),
@@ -96,8 +102,11 @@ async def export_map(
         )
 
 
-def _content(state: State, snapshot: MapSnapshot, sequence: int) -> CompactMap:
-    return load_version(state.engine.maps.store, snapshot, sequence)[0].content()
+def _content(
+    state: State, snapshot: MapSnapshot, sequence: int, wanted: ClassFilter | None
+) -> CompactMap:
+    content = load_version(state.engine.maps.store, snapshot, sequence)[0].content()
+    return of_wanted(content, wanted)
 
 
 def _place(state: State, snapshot: MapSnapshot, text: str | None) -> GeoAnchor | None:
