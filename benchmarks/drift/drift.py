@@ -11,7 +11,7 @@ from placecell_client import CompactMap
 from placecell_client.maps.union import union
 
 from benchmarks.drift.kiss_slam import kiss_slam_row
-from benchmarks.drift.merging import merge_row
+from benchmarks.drift.merging import EVERY, merge_row
 from benchmarks.drift.town_maps import DriftCase, TrueMap, robot_maps
 from benchmarks.drift.views import shared_things, within
 from evaluation.machine import machine
@@ -37,6 +37,7 @@ class DriftPlan:
         percents: drifts of the odometry, percent.
         cache: folder where simulated maps are kept.
         merges: also merge the maps of several robots, and localize in the merged map.
+        every: way between two captures that are localized in a merged map, meters.
         kiss_slam: Python interpreter with the package `kiss-slam`, which then maps the same drives
             of single robots; None: it is not compared.
     """
@@ -45,6 +46,7 @@ class DriftPlan:
     percents: Sequence[float]
     cache: Path
     merges: bool = True
+    every: float = EVERY
     kiss_slam: Path | None = None
 
 
@@ -57,7 +59,7 @@ def run_drift(plan: DriftPlan, tell: Callable[[str], None] = lambda _: None) -> 
             for percent in plan.percents:
                 row = measured(case, percent, maps[percent], engine)
                 if plan.merges and case.robots > 1:
-                    row |= merge_row(maps[percent], engine)
+                    row |= merge_row(maps[percent], engine, plan.every)
                 if plan.kiss_slam is not None and case.robots == 1:
                     row |= kiss_slam_row(case, maps[percent], plan.kiss_slam, plan.cache, tell)
                 tell(

@@ -18,7 +18,17 @@ from service.inference.describer import Descriptors
 from service.merging.bending import bent_content, graph_of, robots_of_captures
 
 EVERY = 10.0
-"""Way between two captures that are localized, meters."""
+"""Way between two captures that are localized, meters, unless the plan states another one."""
+
+STRETCH = 100.0
+"""Way whose queries are drawn together for the confidence interval, meters: neighbors see the same
+segments."""
+
+DRAWS = 4_000
+"""Number of draws for the confidence interval."""
+
+NOT_LOCALIZED, IS_RIGHT, IS_WRONG = 0, 1, 2
+"""Outcomes of a query."""
 
 REACH = 4.9
 """Way around such a capture whose segments are localized: no segment has two views in it."""
@@ -30,11 +40,16 @@ RIGHT = (1.0, 3.0)
 """Largest error of a right pose relative to the nearest capture of the map, meters and degrees."""
 
 
-def merge_row(maps: Sequence[TrueMap], engine: Engine) -> dict[str, Any]:
+def merge_row(maps: Sequence[TrueMap], engine: Engine, every: float = EVERY) -> dict[str, Any]:
     """Merge maps as `/merge` with `rigid: false`; return the keys that the report has for it.
 
     Each robot is localized in the merged map without its own segments, and in the same map with all
     captures at their true poses.
+
+    Args:
+        maps: maps of the robots.
+        engine: engine that merges and localizes.
+        every: way between two captures that are localized, meters.
     """
     names = [f"drift-{number}" for number in range(len(maps))]
     try:
@@ -57,11 +72,41 @@ def merge_row(maps: Sequence[TrueMap], engine: Engine) -> dict[str, Any]:
         "merged_maps": len(merged.plan.poses),
         "merged_within_0_3_m": round(within(graph, shared_things(graph, true)), 4),
     }
-    for key, where in (("localized_merged", content), ("localized_undrifted", straight)):
-        asked, right, wrong = localized(where, true, engine)
-        row |= {"localized_queries": asked, key: round(right / max(asked, 1), 4)}
-        row[f"{key}_wrong"] = wrong
-    return row
+    outcomes = [localized(where, true, engine, every) for where in (content, straight)]
+    for key, found in zip(("localized_merged", "localized_undrifted"), outcomes, strict=True):
+        row |= {
+            "localized_queries": len(found),
+            key: round(float((found[:, 1] == IS_RIGHT).mean()), 4) if len(found) else 0.0,
+            f"{key}_wrong": int((found[:, 1] == IS_WRONG).sum()),
+        }
+    low, high = interval_of_difference(graph, *outcomes)
+    return row | {"localized_difference_low": low, "localized_difference_high": high}
+
+
+def interval_of_difference(graph: GraphMap, merged: Int64, undrifted: Int64) -> tuple[float, float]:
+    """Return the 95% confidence interval of the difference between two shares of right poses.
+
+    The queries of both are the same. Whole stretches of 100 m are drawn again and again
+    (bootstrap), because queries beside each other succeed or fail together.
+
+    Args:
+        graph: the map.
+        merged: int64 (queries, 2), capture and outcome of each query in the merged map.
+        undrifted: the same in the undrifted map.
+    """
+    if not len(merged):
+        return 0.0, 0.0
+    queries = merged[:, 0]
+    step = (merged[:, 1] == IS_RIGHT).astype(int) - (undrifted[:, 1] == IS_RIGHT)
+    stretches = np.column_stack(
+        [graph.frames.odometry.tracks[queries], graph.frames.ways[queries] // STRETCH]
+    )
+    _, stretch = np.unique(stretches, axis=0, return_inverse=True)
+    sums, counts = np.bincount(stretch, step), np.bincount(stretch)
+    drawn = np.random.default_rng(23).integers(0, len(counts), (DRAWS, len(counts)))
+    shares = sums[drawn].sum(axis=1) / counts[drawn].sum(axis=1)
+    low, high = np.quantile(shares, [0.025, 0.975]).round(4).tolist()
+    return low, high
 
 
 def true_poses(content: CompactMap, maps: Sequence[TrueMap]) -> Float64:
@@ -75,24 +120,24 @@ def true_poses(content: CompactMap, maps: Sequence[TrueMap]) -> Float64:
     return np.stack([known[key] for key in keys])
 
 
-def localized(content: CompactMap, true: Float64, engine: Engine) -> tuple[int, int, int]:
-    """Localize each robot among the others; return the number of queries, right and wrong poses."""
+def localized(content: CompactMap, true: Float64, engine: Engine, every: float = EVERY) -> Int64:
+    """Localize each robot among the others; return capture and outcome, int64 (queries, 2)."""
     graph = graph_of(content)
     names = np.array(robots_of_captures(content))
     spots, turns = true[:, :3, 3], headings(true[:, :3, :3])
-    counts = np.zeros(3, dtype=np.int64)
+    outcomes = []
     for name in dict.fromkeys(names.tolist()):
         others = np.flatnonzero(names[graph.captures] != name)
         captures = np.unique(graph.captures[others])
         engine.put_map("drift-others", take(content, others))
         try:
-            for query in _queries(graph, np.flatnonzero(names == name)):
+            for query in _queries(graph, np.flatnonzero(names == name), every):
                 apart = np.linalg.norm(spots[captures] - spots[query], axis=1)
                 if apart.min() > NEAR:
                     continue
-                counts[0] += 1
                 pose = _pose(content, graph, query, engine)
                 if pose is None:
+                    outcomes.append((query, NOT_LOCALIZED))
                     continue
                 one = captures[apart.argmin()]
                 frames = graph.frames
@@ -104,17 +149,18 @@ def localized(content: CompactMap, true: Float64, engine: Engine) -> tuple[int, 
                 )
                 meters = np.linalg.norm(there - wanted)
                 degrees = np.degrees(abs(wrapped(turn - turned)[0]))
-                counts[1 if meters <= RIGHT[0] and degrees <= RIGHT[1] else 2] += 1
+                is_right = meters <= RIGHT[0] and degrees <= RIGHT[1]
+                outcomes.append((query, IS_RIGHT if is_right else IS_WRONG))
         finally:
             engine.delete_map("drift-others")
-    return int(counts[0]), int(counts[1]), int(counts[2])
+    return np.array(outcomes, dtype=np.int64).reshape(-1, 2)
 
 
-def _queries(graph: GraphMap, captures: Int64) -> Int64:
-    """Return one capture for each 10 m of way."""
+def _queries(graph: GraphMap, captures: Int64, every: float) -> Int64:
+    """Return one capture for each `every` meters of way."""
     ways = graph.frames.ways[captures]
     order = np.argsort(ways, kind="stable")
-    _, first = np.unique(np.floor(ways[order] / EVERY), return_index=True)
+    _, first = np.unique(np.floor(ways[order] / every), return_index=True)
     return captures[order[first]]
 
 

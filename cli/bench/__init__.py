@@ -14,6 +14,7 @@ from cli.bench.json_requests import json_requests
 from cli.bench.ladder import ladder
 from cli.bench.live import live
 from cli.bench.localize import localize
+from cli.bench.long_life import long_life
 from cli.bench.maps import maps
 from cli.bench.moving import moving
 from cli.bench.page import page
@@ -45,6 +46,7 @@ bench.command()(takes_drives(search))
 bench.command()(takes_drives(localize))
 bench.command()(takes_drives(floors))
 bench.command()(live)
+bench.command()(long_life)
 bench.command()(drift)
 bench.command()(robot_faults)
 bench.command()(pose_tables)

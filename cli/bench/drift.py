@@ -44,6 +44,12 @@ def drift(
     cache: Annotated[
         Path, typer.Option(metavar="FOLDER", help="Folder where simulated maps are kept.")
     ] = Path("out/drift"),
+    every: Annotated[
+        float,
+        typer.Option(
+            min=1.0, help="Way between two captures that are localized in a merged map, meters."
+        ),
+    ] = 10.0,
     kiss_slam: Annotated[
         Path | None,
         typer.Option(
@@ -72,7 +78,7 @@ def drift(
             for each in meters or [2000.0, 5000.0, 20000.0]
             for count in robots or [1, 3]
         ]
-        plan = DriftPlan(cases, percent or [1.0, 2.0], cache, kiss_slam=kiss_slam)
+        plan = DriftPlan(cases, percent or [1.0, 2.0], cache, every=every, kiss_slam=kiss_slam)
         report = run_drift(plan, tell)
         write_json(report, json_file)
     table = new_table("case", "meters", "loops", "wrong", "ATE before", "after", "seconds")

@@ -75,7 +75,10 @@ class ObservedSegments:
 
 
 def judge(
-    stored: ObservedSegments, later: ObservedSegments, check: Callable[[], None] = lambda: None
+    stored: ObservedSegments,
+    later: ObservedSegments,
+    check: Callable[[], None] = lambda: None,
+    most_pairs: int | None = None,
 ) -> Int8:
     """Judge stored segments by a later pass, int8 (stored,): one of the verdicts.
 
@@ -83,18 +86,29 @@ def judge(
         stored: the segments.
         later: all segments that the pass saw, also those that it found stored already.
         check: is called often; it may raise to cancel the work.
+        most_pairs: largest number of pairs of a stored and a later segment to compare, which bounds
+            the time. If there are more, segments are judged from every second capture, or fewer.
+            None: no limit.
     """
     verdicts = np.full(len(stored), UNSEEN, dtype=np.int8)
     if not len(stored) or not len(later):
         return verdicts
     away = np.linalg.norm(stored.centroids - stored.viewpoints[stored.captures], axis=1)
     reach = np.maximum(away, LEAST_REACH)
-    for capture in np.unique(later.captures[later.captures >= 0]).tolist():
+    captures = np.unique(later.captures[later.captures >= 0])
+    if most_pairs is not None and len(captures):
+        pairs = sum(
+            int((np.linalg.norm(stored.centroids - later.viewpoints[each], axis=1) <= reach).sum())
+            * _around(later, later.viewpoints[each]).sum()
+            for each in captures.tolist()
+        )
+        captures = captures[:: max(1, -(-int(pairs) // most_pairs))]
+    for capture in captures.tolist():
         check()
         viewpoint = later.viewpoints[capture]
         distance = np.linalg.norm(stored.centroids - viewpoint, axis=1)
         rows = np.flatnonzero((distance <= reach) & (verdicts != CONFIRMED))
-        near = np.linalg.norm(later.centroids - viewpoint, axis=1) <= NEIGHBORS
+        near = _around(later, viewpoint)
         if not len(rows) or not near.any():
             continue
         around = later.take(near)
@@ -102,6 +116,11 @@ def judge(
         # Absence from one capture is enough, unless another one sees the segment.
         verdicts[rows] = np.where(found == CONFIRMED, CONFIRMED, np.maximum(verdicts[rows], found))
     return verdicts
+
+
+def _around(later: ObservedSegments, viewpoint: Float64) -> Bool:
+    """Return which segments of a pass lie around a capture, bool (later,)."""
+    return np.asarray(np.linalg.norm(later.centroids - viewpoint, axis=1) <= NEIGHBORS)
 
 
 def _judged_from(

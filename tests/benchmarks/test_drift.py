@@ -10,10 +10,13 @@ from typer.testing import CliRunner
 from benchmarks.drift import drift as measurement
 from benchmarks.drift.drift import DriftPlan, measured, run_drift
 from benchmarks.drift.drifting_odometry import WanderingOdometry
-from benchmarks.drift.merging import merge_row
+from benchmarks.drift.long_life import TrueDay, counted, day_of
+from benchmarks.drift.merging import interval_of_difference, merge_row
 from benchmarks.drift.town_maps import DriftCase, TrueMap, robot_maps
 from cli import app
 from placecell.core.types import Float64
+from placecell.lasting.judgment import ABSENT, CONFIRMED, UNSEEN, ObservedSegments, judge
+from placecell.pose_graph import CaptureOdometry, GraphFrames, GraphMap
 from service.engine import Engine
 from tests.placecell.pose_graph.graph_builders import square_path
 from tests.service.merging.drifting_maps import SIDE, drifting_map
@@ -72,6 +75,7 @@ def test_maps_are_merged_and_localized_in(model: Path) -> None:
     assert row["localized_queries"] == 96
     assert row["localized_merged_wrong"] == row["localized_undrifted_wrong"] == 0
     assert row["localized_merged"] >= row["localized_undrifted"] - 0.1
+    assert row["localized_difference_low"] <= row["localized_difference_high"]
 
 
 def test_town_is_simulated_once_and_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -128,3 +132,52 @@ def test_command_ends_with_status_1_if_a_wrong_loop_is_accepted(
     assert [case.robots for case in plans[0].cases] == [1, 3, 1, 3]
     row["loops_wrong"] = 1
     assert CliRunner().invoke(app, words).exit_code == 1
+
+
+def test_interval_of_the_difference_holds_it_and_narrows_with_more_stretches() -> None:
+    rng = np.random.default_rng(5)
+    widths = []
+    for count in (400, 6400):
+        positions = np.column_stack([5.0 * np.arange(count), np.zeros((count, 2))])
+        odometry = CaptureOdometry.from_poses(np.ones(count, np.int64), positions, np.zeros(count))
+        frames = GraphFrames(np.arange(float(count)), positions, np.zeros(count), odometry)
+        graph = GraphMap(frames, np.zeros((0, 3)), np.zeros(0, np.int64))
+        merged, other = (
+            np.column_stack([np.arange(count), rng.random(count) < share]).astype(np.int64)
+            for share in (0.90, 0.95)
+        )
+        low, high = interval_of_difference(graph, merged, other)
+        told = float(merged[:, 1].mean() - other[:, 1].mean())
+        assert low <= told <= high
+        widths.append(high - low)
+    assert 0 < widths[1] < widths[0] / 2
+    assert interval_of_difference(graph, other, other) == (0.0, 0.0)
+    nothing = np.zeros((0, 2), np.int64)
+    assert interval_of_difference(graph, nothing, nothing) == (0.0, 0.0)
+
+
+def test_verdicts_are_compared_with_the_truth() -> None:
+    seen = ObservedSegments(
+        np.zeros((6, 3)), np.ones((6, 3)), np.zeros((1, 3)), np.zeros(6, np.int64)
+    )
+    day = TrueDay(
+        seen,
+        movable=np.array([1, 1, 1, 0, 0, 0], bool),
+        known=np.array([1, 1, 1, 1, 1, 0], bool),
+    )
+    verdicts = np.array([ABSENT, CONFIRMED, UNSEEN, ABSENT, CONFIRMED, ABSENT])
+    row = counted(verdicts, day)
+    assert (row["gone"], row["stays"]) == (3, 2)
+    assert row["absent_precision"] == row["absent_recall"] == 0.5
+    assert row["absent_of_all_gone"] == 0.3333
+    assert row["confirmed_precision"] == row["confirmed_recall"] == 0.5
+
+
+def test_cars_of_the_first_day_are_gone_on_the_other_one(tmp_path: Path) -> None:
+    first, second = (day_of(3, "vlp-16", 30, other, tmp_path) for other in (False, True))
+    assert first.movable.any()
+    assert second.movable.any()
+    row = counted(judge(first.seen, second.seen), first)
+    assert row["gone_absent"] + row["stays_confirmed"] > 0
+    same = counted(judge(first.seen, first.seen), first)
+    assert same["stays_absent"] == same["gone_absent"] == 0

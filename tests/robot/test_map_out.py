@@ -84,7 +84,10 @@ def test_edit_carries_the_classes_of_the_new_views() -> None:
         np.array([0, 2]),
         np.array([0, 121], np.uint8),
     )
-    clouds = [np.random.default_rng(each).uniform(0, each, (9, 3)) for each in (1, 2, 30)]
+    clouds = [
+        np.random.default_rng(each).uniform(0, each, (9, 3)).astype(np.float32)
+        for each in (1, 2, 30)
+    ]
     live = LiveSegments(
         Segments.of(clouds, np.zeros((3, 3))),
         np.array([5, 6, 7]),
@@ -101,7 +104,7 @@ def test_edit_carries_the_classes_of_the_new_views() -> None:
     assert content.extents is not None
     for row, cloud in enumerate((clouds[0], clouds[2])):
         sides = np.ptp(cloud, axis=0)
-        assert (content.extents[row] == np.ceil(10 * sides.astype(np.float32)).clip(max=255)).all()
+        assert (content.extents[row] == np.ceil(10 * sides).clip(max=255)).all()
 
 
 def test_variances_grow_with_distance_and_turn_and_begin_anew_with_a_part() -> None:

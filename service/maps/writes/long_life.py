@@ -24,6 +24,9 @@ REACH = 60.0
 MOST_CAPTURES = 64
 """Largest number of captures of an upload that segments are judged from, the last ones."""
 
+MOST_PAIRS = 2_000_000
+"""Largest number of pairs of segments that an upload compares. The map is locked meanwhile."""
+
 LEAST_TURN = 0.01
 """Turn of a track in the map from which boxes are turned too, radians: orientations are float32."""
 
@@ -95,6 +98,7 @@ def judged_by(
         observed_segments(take(near, open_rows)),
         _pass_of(upload, take(near, recent), int(captures[0])),
         current().check,
+        MOST_PAIRS,
     )
     there = np.zeros(len(near), dtype=bool)
     there[open_rows[found == CONFIRMED]] = True

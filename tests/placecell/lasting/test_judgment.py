@@ -89,6 +89,20 @@ def test_rotated_and_shifted_scenes_have_the_same_verdicts() -> None:
     assert judge(turned[0], turned[1]).tolist() == judge(before, after).tolist()
 
 
+def test_limit_of_pairs_leaves_captures_out() -> None:
+    calls: list[int] = []
+    spots = [(0.3 * number, 0.0, 1.8) for number in range(8)]
+    later = ObservedSegments(
+        np.array([WALL[0]] * 8), np.array([WALL[1]] * 8), np.array(spots), np.arange(8)
+    )
+    stored = scene(CAR, (WALL[0], (0.2, 0.2, 0.2)))
+    for most, captures in ((None, 8), (10_000, 8), (64, 4), (1, 1)):
+        calls.clear()
+        verdicts = judge(stored, later, lambda: calls.append(1), most)
+        assert len(calls) == captures
+        assert verdicts[0] == ABSENT
+
+
 def test_nothing_is_judged_without_segments() -> None:
     nothing = scene(CAR).take(np.zeros(1, bool))
     assert judge(nothing, scene(CAR)).tolist() == []
