@@ -15,10 +15,13 @@ from placecell_client import (
     decode_delta,
     encode_delta,
 )
-from placecell_client.maps.edit import take
+from placecell_client.maps.edit import delta_between, take
 
 NOT_FOUND, GONE = 404, 410
 """HTTP statuses: no such map; the remote has dropped the version or the cursor."""
+
+REFUSED = frozenset({404, 409, 412, 413, 422})
+"""HTTP statuses of an edit that the local map does not take; it is sent as a whole then."""
 
 
 class PageSpool:
@@ -97,6 +100,7 @@ class Mirror:
         self._spool = PageSpool(spool / digest[:16])
         self._copy: MapCopy | None = None
         self._stored: str | None = None
+        self._written: tuple[CompactMap, str] | None = None
 
     def step(self) -> MirrorRound:
         """Copy what has changed since the last round.
@@ -175,8 +179,31 @@ class Mirror:
                 if error.status != 412:  # it is there, and must be empty
                     raise
             self._local.set_mirror(self._target, self._source)
-        self._local.put_map(self._target, content, if_match="*")
+        if not self._edit(content):
+            written = self._local.put_map(self._target, content, if_match="*")
+            self._written = content, written.etag
         self._local.set_mirror(self._target, self._source, etag)
+
+    def _edit(self, content: CompactMap) -> bool:
+        """Send only the changes since the last write of this process; False if that is impossible.
+
+        The local service applies them to the version that this write led to, or refuses.
+        """
+        written, self._written = self._written, None
+        if written is None or content.has_odometry:  # such a map may hold moved captures
+            return False
+        before, etag = written
+        delta = delta_between(before, content, 0, 0)
+        if delta.is_whole or delta.moved is not None:
+            return False
+        try:
+            after = self._local.edit_map(self._target, delta, if_match=etag)
+        except ServiceError as error:
+            if error.status not in REFUSED:
+                raise
+            return False
+        self._written = content, after.etag
+        return True
 
     def _local_mark_is_missing(self) -> bool:
         try:

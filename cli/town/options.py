@@ -20,7 +20,9 @@ Seed = Annotated[
 ]
 Place = Annotated[
     str,
-    typer.Option(metavar="NAME", help="Place: streets, campus, garden, indoor, car-park or suburb."),
+    typer.Option(
+        metavar="NAME", help="Place: streets, campus, garden, indoor, car-park or suburb."
+    ),
 ]
 Floor = Annotated[
     int,

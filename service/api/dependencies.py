@@ -155,6 +155,7 @@ class MapWrite:
         """Check the key's scope, enter a lane and receive the body; see `Lane.admit`."""
         self.check_writable()
         async with lane.admit(self.request, media_types, self.timing, body_bytes) as body:
+            await self._check_newest()
             yield body.content
 
     @asynccontextmanager
@@ -162,6 +163,7 @@ class MapWrite:
         """Check the key's scope and enter a lane, for a request without a body."""
         self.check_writable()
         async with lane.enter(self.request):
+            await self._check_newest()
             yield
 
     def check_writable(self) -> None:
@@ -171,7 +173,18 @@ class MapWrite:
             Problem: 403 if the key may not write the map, 409 if it is a mirror.
         """
         self.principal.check_write(self.name)
-        mirror = self.mirror
+        self._check_mirror(self.mirror)
+
+    async def _check_newest(self) -> None:
+        """Check the mark that another service of the same database may have set just now."""
+        engine = self.state.engine
+        if engine.follower is not None:
+            request = admitted()
+            assert request is not None  # `receive` or `enter` has entered a lane
+            await request.run(lambda: engine.maps.catch_up(self.name))
+            self._check_mirror(engine.mirror(self.name))
+
+    def _check_mirror(self, mirror: MirrorMark | None) -> None:
         if mirror is not None and self.request.headers.get(MIRROR_HEADER) != mirror.source:
             raise Problem(
                 409,

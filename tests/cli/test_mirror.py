@@ -122,6 +122,28 @@ def test_mirror_has_the_same_bytes_and_transfers_only_changes(
         site.local.set_tags("copy", [])
 
 
+def test_running_mirror_sends_only_changes_to_the_local_service(
+    site: Site, yard: Callable[..., None]
+) -> None:
+    mirror = site.mirror()
+    mirror.step()
+    whole, part = "PUT /maps/copy", "POST /maps/copy/segments"
+    for first in (200, 300):
+        yard(first=first, removed=(first // 2, first // 2 + 1))
+        site.inside.paths.clear()
+        assert mirror.step().is_new
+        assert (whole in site.inside.paths, part in site.inside.paths) == (False, True)
+        assert site.is_same()
+    # Another copier of the same source wrote meanwhile.
+    yard(first=400)
+    site.mirror().step()
+    yard(first=500)
+    site.inside.paths.clear()
+    mirror.step()
+    assert site.inside.paths.index(part) < site.inside.paths.index(whole)
+    assert site.is_same()
+
+
 def test_cut_and_restarted_mirror_goes_on_with_the_missing_page(
     site: Site, yard: Callable[..., None]
 ) -> None:

@@ -258,6 +258,29 @@ def test_map_of_another_service_becomes_a_mirror(
     assert_problem(other.delete("/maps/yard/mirror"), 404, "not-a-mirror")
 
 
+def test_mark_that_another_service_has_just_set_refuses_writes(
+    replica: Start, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(following.Follower, "_work", lambda self: None)
+    one, other = replica("a"), replica("b")
+    put(one, manifest, rows=0)
+    assert etag_at(other) is None
+    source = {"source": "https://hq.example/maps/yard"}
+    assert one.put("/maps/yard/mirror", json=source).is_success
+    # No token, and no notification: each write looks at the database itself.
+    elsewhere = other.put("/maps/yard/mirror", json={"source": "https://else.example/maps/yard"})
+    assert_problem(elsewhere, 409, "mirrored-map", "mirror of https://hq.example")
+    assert_problem(edit(other, manifest, 10), 409, "mirrored-map")
+    own = {"Placecell-Mirror": source["source"]}
+    assert edit(other, manifest, 10, headers=own).is_success
+    marked = {**source, "etag": "0123456789abcdef-7"}
+    assert one.put("/maps/yard/mirror", json=marked, headers=own).is_success
+    assert one.delete("/maps/yard/mirror").status_code == 204
+    # The map has segments by now, which the other service has never been told of.
+    again = replica("c").put("/maps/yard/mirror", json=source)
+    assert_problem(again, 409, "not-a-mirror", "5 segments")
+
+
 def test_latest_reads_need_no_token(
     replica: Start, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
