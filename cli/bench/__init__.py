@@ -4,6 +4,7 @@ import typer
 
 from cli.bench.align import align
 from cli.bench.attack import attack
+from cli.bench.completion import completion
 from cli.bench.crash import crash
 from cli.bench.describe import describe
 from cli.bench.drift import drift
@@ -66,4 +67,5 @@ bench.command()(read)
 bench.command()(takes_drives(robot))
 bench.command()(takes_drives(persistent))
 bench.command()(takes_drives(moving))
+bench.command()(takes_drives(completion))
 bench.command()(page)
