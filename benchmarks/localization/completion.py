@@ -1,4 +1,4 @@
-"""Completion: what the decoded shapes of a map add to poses and to recognition.
+"""Completion: benefit of the decoded shapes of a map for poses and recognition.
 
 Poses: the pose of each query is refined by ICP of the robot's points against the shapes that are
 decoded from the map and, as the upper bound, against the true points of the mapped segments, which

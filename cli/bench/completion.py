@@ -1,4 +1,4 @@
-"""`placecell bench completion`: what decoded shapes add to poses and recognition."""
+"""`placecell bench completion`: benefit of decoded shapes for poses and recognition."""
 
 from pathlib import Path
 from typing import Annotated, Any

@@ -1,4 +1,4 @@
-"""What decoded shapes add to poses and recognition."""
+"""Benefit of decoded shapes for poses and recognition."""
 
 import json
 from pathlib import Path
