@@ -145,6 +145,7 @@ def test_topics_have_the_quality_of_their_kind(ros: ModuleType, opened: Opened) 
     assert {*quality} == {"points", "odom", "/tf_static", "/initialpose"}
     for topic in ("points", "odom"):
         assert quality[topic].reliability.name == "BEST_EFFORT"
+    assert quality["odom"].depth >= 100
     assert quality["/tf_static"].durability.name == "TRANSIENT_LOCAL"
     assert {*node.publishers} == {"/tf", "~/pose", "/diagnostics"}
     assert {*node.services} == {"~/localize"}

@@ -106,3 +106,13 @@ def test_package_installs_as_colcon_does_it_and_its_node_imports(tmp_path: Path)
     module, imported = run(venv / "bin/python", "-c", code, cwd=tmp_path).split()
     assert module == "placecell_ros.agent_node"
     assert Path(imported).is_relative_to(venv)
+
+
+def test_launch_file_passes_names_as_text(launched: list[Any]) -> None:
+    """A map named 2026 would be a number otherwise, which the node refuses."""
+    (node,) = (each for each in launched if getattr(each, "executable", "") == "agent")
+    _, values = node.options["parameters"]
+    assert {name: values[name].value_type for name in ("map", "service")} == {
+        "map": str,
+        "service": str,
+    }

@@ -33,16 +33,15 @@ def generate_launch_description() -> LaunchDescription:
             description="File with the other parameters.",
         )
     )
+    # Without the type, a map named 2026 or "on" would be a number or a boolean.
+    texts = {name: ParameterValue(value[name], value_type=str) for name in ("map", "service")}
     sim_time = {"use_sim_time": ParameterValue(value["use_sim_time"], value_type=bool)}
     agent = Node(
         package="placecell_ros",
         executable="agent",
         name="placecell",
         output="screen",
-        parameters=[
-            value["params_file"],
-            {"map": value["map"], "service": value["service"]} | sim_time,
-        ],
+        parameters=[value["params_file"], texts | sim_time],
         remappings=[("points", value["points"]), ("odom", value["odom"])],
         sigterm_timeout="15",  # the agent sends its last edits
     )

@@ -11,7 +11,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
 from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
@@ -88,9 +88,11 @@ class AgentNode(Node):
         tell = self.get_logger().info
         self._robot = RobotNode(agent, RosPublisher(self), read.node, tell)
         latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        # Odometry at 200 Hz must not be lost while a cloud is converted.
+        steps = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
         sensor = qos_profile_sensor_data
         self._receive(PointCloud2, "points", cloud_of, self._robot.on_cloud, sensor)
-        self._receive(Odometry, "odom", odometry_of, self._robot.on_odometry, sensor)
+        self._receive(Odometry, "odom", odometry_of, self._robot.on_odometry, steps)
         self._receive(TFMessage, "/tf_static", transforms_of, self._on_static, latched)
         self._receive(
             PoseWithCovarianceStamped, "/initialpose", pose_from, self._robot.on_initial_pose, 10
