@@ -8,8 +8,15 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks.storage import search_scale
+from benchmarks.storage.cold_maps import ColdMapsPlan, measure_cold_maps
 from benchmarks.storage.search_scale import SearchScalePlan, on_one_core
+from benchmarks.synthetic_maps.descriptor_sampler import DescriptorSampler
 from cli import app
+from placecell.descriptors.extractor import load_extractor
+from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
+from service.core.metrics import Metrics
+from service.core.settings import Settings
+from service.inference.model_registry import Models
 from service.maps import index
 from service.search import parallel
 from tests.benchmarks.test_ladder import recorded_from_two_places
@@ -36,6 +43,20 @@ def test_command_measures_one_map_and_many(tmp_path: Path, monkeypatch: pytest.M
         assert row["equal_8_queries"]
         assert row["ms_8_queries"] > 0
     assert report["code_bytes"] == 32
+
+
+@pytest.mark.integration
+@pytest.mark.slow
+def test_cold_maps_are_measured_beside_a_service_that_holds_all() -> None:
+    model = Models(Settings.model_validate({}), Metrics()).default
+    sampler = DescriptorSampler.from_recording(
+        load_extractor(MODELS_FOLDER / DEFAULT_MODEL), recorded_from_two_places(), seed=1
+    )
+    plan = ColdMapsPlan(sizes=(1000,), maps=2, rounds=1, queries=3)
+    (row,) = measure_cold_maps(sampler, model.manifest, plan)["rows"]
+    assert (row["segments"], row["maps"]) == (1000, 2)
+    assert 0 < row["later_ms"] <= row["first_max_ms"]
+    assert min(row["without_maps_mb"], row["all_loaded_mb"], row["one_loaded_mb"]) > 50
 
 
 def test_one_core_is_for_a_block_only() -> None:
