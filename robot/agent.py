@@ -152,8 +152,9 @@ class RobotAgent:
             self._start()
         self._take_answer()
         self._follow_map()
-        # Only a map holds classes: a robot that sends none saves the time.
-        describe = partial(self._engine.describe, classified=self.settings.upload)
+        # Maps and filters need classes: a robot without either saves the time.
+        classified = self.settings.upload or bool(self.settings.ignore)
+        describe = partial(self._engine.describe, classified=classified)
         step = self._perception.add(points, time_s, odom_pose, describe)
         self._handle_jump(step)
         if step.keyframe is not None:

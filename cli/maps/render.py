@@ -7,7 +7,7 @@ import typer
 
 from cli.common_options import Classes, Ignore
 from cli.maps.connection import LOCAL, Url, service
-from cli.sources import clear_errors, show
+from cli.sources import clear_errors, parse_town, show
 from placecell.export.targets import ColorBy
 
 if TYPE_CHECKING:
@@ -16,12 +16,21 @@ if TYPE_CHECKING:
     from placecell.descriptors.manifest import Manifest
     from placecell.export.content import ExportContent
 
+PICTURE_SCANS = 80
+"""Scans of the drive of a town's picture."""
+PICTURE_MODEL = "context-town"
+"""Model of a town's picture: it has classes."""
 TARGETS = ("ply", "las", "pcd")
 
 
 def render(
     source: Annotated[
-        str, typer.Argument(metavar="MAP", help="Name of a map of the service, or a map file.")
+        str,
+        typer.Argument(
+            metavar="MAP",
+            help="Name of a map of the service, a map file, or town:SEED:SENSOR:PLACE: the map of "
+            "a simulated drive is drawn beside its cloud.",
+        ),
     ],
     output: Annotated[
         Path,
@@ -59,6 +68,9 @@ def render(
         from placecell.shapes.decoder import ShapeDecoder
         from service.clouds.map_shapes import rendered_content
 
+        if source.startswith("town:"):
+            draw_town(source, output, model)
+            return
         suffix = output.suffix.lower().removeprefix(".")
         if suffix not in (*TARGETS, "png"):
             raise ValueError(f"{output}: unknown format. Name a file .ply, .las, .pcd or .png.")
@@ -72,6 +84,29 @@ def render(
         else:
             write_content(content, suffix, output, chosen, None)  # type: ignore[arg-type]
     typer.echo(f"{output}: {len(found):,} segments, {len(content.points):,} points")
+
+
+def draw_town(text: str, file: Path, model: str | None) -> None:
+    """Draw the map of a simulated drive beside its cloud.
+
+    Raises:
+        ValueError: the file is no PNG file, the place or the sensor is unknown, or the model has no
+            classes.
+    """
+    import tempfile
+
+    from evaluation.poses.map_picture import draw_map
+    from evaluation.poses.town_drives import TownDrives
+    from placecell.descriptors.shipped_models import model_folder
+
+    if file.suffix.lower() != ".png":
+        raise ValueError(f"{file}: the picture of a simulated drive is a PNG file. Name it .png.")
+    seed, sensor, place = parse_town(text)
+    with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
+        drives = TownDrives(Path(folder), seed, place or "streets", PICTURE_SCANS)
+        robot = drives.robot("robot_a", sensor or "hdl-64e", show)
+        found = draw_map(robot, model_folder(model or PICTURE_MODEL), file)
+    typer.echo(f"{file}: {len(found):,} segments")
 
 
 def _content(source: str, url: str) -> "CompactMap":

@@ -20,7 +20,7 @@ from robot.localization.scan_jump import ScanAgreement, object_columns
 from robot.mapping.keyframes import Keyframes
 from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
 
-VERSION = 3
+VERSION = 4
 """Version of the checkpoints."""
 STANDING = 0.1
 """Steps below this length are noise of the odometry of a standing robot, meters."""
