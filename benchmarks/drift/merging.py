@@ -13,6 +13,7 @@ from benchmarks.drift.views import shared_things, within
 from placecell.core.types import Float64, Int64
 from placecell.pose_graph import GraphMap
 from placecell.pose_graph.frames import headings, relative, wrapped
+from service.core.problems import Problem
 from service.engine import Engine
 from service.inference.describer import Descriptors
 from service.merging.bending import bent_content, graph_of, robots_of_captures
@@ -57,7 +58,10 @@ def merge_row(maps: Sequence[TrueMap], engine: Engine, every: float = EVERY) -> 
             engine.put_map(name, each.content)
         begun = perf_counter()
         # All views stay, to compare those of different robots.
-        merged = engine.merge_maps("drift-merged", names, deduplicate=False, rigid=False)
+        try:
+            merged = engine.merge_maps("drift-merged", names, deduplicate=False, rigid=False)
+        except Problem as error:  # too much drift to align the maps as a whole
+            return {"merged_maps": 0, "merge_problem": error.kind}
         seconds = perf_counter() - begun
         content = engine.get_map("drift-merged")
     finally:

@@ -1,6 +1,7 @@
 """Measurement of drift, in a small form."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -181,3 +182,14 @@ def test_cars_of_the_first_day_are_gone_on_the_other_one(tmp_path: Path) -> None
     assert row["gone_absent"] + row["stays_confirmed"] > 0
     same = counted(judge(first.seen, first.seen), first)
     assert same["stays_absent"] == same["gone_absent"] == 0
+
+
+def test_maps_that_cannot_be_aligned_are_reported_as_not_merged(model: Path) -> None:
+    with Engine.temporary(model) as engine:
+        near = drifting_map(engine.model.id, 1, 1, robot="ann", odometry=True)[0]
+        other = replace(near, robots=("bob",), codes=np.zeros_like(near.codes))
+        maps = [TrueMap(each, true_poses(1), 480.0) for each in (near, other)]
+        row = merge_row(maps, engine)
+        assert row["merged_maps"] == 0
+        assert row["merge_problem"]
+        assert all(engine.maps.find(name) is None for name in ("drift-0", "drift-1"))
