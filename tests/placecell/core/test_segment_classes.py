@@ -1,5 +1,7 @@
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from placecell.core.segment_classes import (
     CLASSES,
@@ -8,6 +10,7 @@ from placecell.core.segment_classes import (
     class_probabilities,
     encoded,
     is_class,
+    most_probable,
     movable,
 )
 
@@ -59,3 +62,27 @@ def test_values_out_of_range_are_refused(classes: list[int], probabilities: list
 
 def test_unknown_class_needs_no_probability() -> None:
     assert encoded([-1], [np.nan]).tolist() == [0]
+
+
+COLUMN = st.lists(st.integers(0, 248), min_size=5, max_size=5).map(lambda c: np.array(c, np.uint8))
+
+
+@given(COLUMN, COLUMN, COLUMN)
+def test_merged_classes_depend_on_probability_and_not_on_who_came_how_often(
+    one: np.ndarray, two: np.ndarray, three: np.ndarray
+) -> None:
+    merged = most_probable(one, two)
+    # Again adds nothing, and the order of three parts in a row does not depend on the brackets.
+    np.testing.assert_array_equal(most_probable(merged, two), merged)
+    np.testing.assert_array_equal(most_probable(merged, one), merged)
+    np.testing.assert_array_equal(
+        most_probable(merged, three), most_probable(one, most_probable(two, three))
+    )
+    # A known class is never lost, and its probability never falls.
+    assert ((merged != 0) == ((one != 0) | (two != 0))).all()
+    highest = np.maximum(class_probabilities(one), class_probabilities(two))
+    np.testing.assert_array_equal(class_probabilities(merged), highest)
+    # Only a tie of two known classes depends on the order.
+    differs = merged != most_probable(two, one)
+    assert (class_probabilities(one) == class_probabilities(two))[differs].all()
+    assert ((one != 0) & (two != 0))[differs].all()
