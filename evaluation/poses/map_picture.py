@@ -177,12 +177,13 @@ def view_of(content: CompactMap) -> View:
 
 
 def _reduce_colors(file: Path) -> None:
-    """Write a PNG file again with a palette of 256 colors: half the bytes."""
+    """Write a PNG file again with 33 levels of each color: half the bytes, and gray stays gray."""
     from PIL import Image
 
     with Image.open(file) as image:
-        reduced = image.convert("RGB").quantize(256, method=Image.Quantize.MAXCOVERAGE)
-    reduced.save(file, optimize=True)
+        levels = np.asarray(image.convert("RGB"), np.float64) / 8
+    reduced = np.minimum(np.rint(levels) * 8, 255).astype(np.uint8)
+    Image.fromarray(reduced).save(file, optimize=True)
 
 
 def legend_of(classes: UInt8) -> "list[Patch]":
