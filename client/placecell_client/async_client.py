@@ -375,6 +375,10 @@ class AsyncClient(BaseClient):
         """See `Client.segment_shape`."""
         return await self._send(self._calls.segment_shape(name, segment))
 
+    async def segment_shapes(self, name: str, segments: Sequence[int]) -> list[SegmentShape]:
+        """See `Client.segment_shapes`."""
+        return await self._send(self._calls.segment_shapes(name, segments))
+
     async def compact_map(self, name: str, keep: int = 1) -> int:
         """See `Client.compact_map`."""
         return await self._send(self._calls.compact_map(name, keep))

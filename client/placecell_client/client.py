@@ -703,6 +703,18 @@ class Client(BaseClient):
         """
         return self._send(self._calls.segment_shape(name, segment))
 
+    def segment_shapes(self, name: str, segments: Sequence[int]) -> list[SegmentShape]:
+        """Return what some stored segments look like, by ascending id.
+
+        Segments that the newest version of the map does not have are left out. A map whose model
+        has no decoder gives a `ServiceError` with status 409.
+
+        Args:
+            name: Name of the map.
+            segments: Ids of 1 to 100 segments.
+        """
+        return self._send(self._calls.segment_shapes(name, segments))
+
     def compact_map(self, name: str, keep: int = 1) -> int:
         """Drop all but the newest `keep` versions; return the oldest kept sequence number."""
         return self._send(self._calls.compact_map(name, keep))

@@ -73,6 +73,8 @@ def detail_of(
     principal: Principal,
     site: SiteCalibration | None,
     annotations: MapAnnotations,
+    *,
+    shapes: bool,
 ) -> MapDetailOut:
     """Return the summary of a map with its calibration and anchor; call it in a thread."""
     summary = summary_of(snapshot, principal, annotations.tags).model_dump()
@@ -83,6 +85,7 @@ def detail_of(
             "calibration": None if site is None else site.as_dict(),
             "anchor": None if anchor is None else geo_anchor_of(snapshot, anchor, principal),
             "mirror": None if mirror is None else mirror_of(mirror),
+            "shapes": shapes,
         }
     )
 

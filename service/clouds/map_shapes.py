@@ -32,7 +32,10 @@ def stored_segments(content: CompactMap) -> StoredSegments:
 
 
 def decoded_points(
-    content: CompactMap, decoder: ShapeDecoder, progress: Progress | None = None
+    content: CompactMap,
+    decoder: ShapeDecoder,
+    progress: Progress | None = None,
+    chunk: int = CHUNK,
 ) -> tuple[Float32, Int64]:
     """Return the points of all segments, float32 (points, 3), and the row of each, int64 (points,).
 
@@ -40,14 +43,16 @@ def decoded_points(
         content: map of the decoder's model.
         decoder: decodes the shapes.
         progress: wraps the loop.
+        chunk: number of segments that are decoded at once. A quantized decoder rounds by the values
+            of its batch; with 1, a shape does not depend on the other segments.
     """
     stored = stored_segments(content)
-    starts = range(0, len(stored), CHUNK)
+    starts = range(0, len(stored), chunk)
     parts: list[Float32] = [np.zeros((0, 3), np.float32)]
     owners: list[Int64] = [np.zeros(0, np.int64)]
     steps = starts if progress is None else progress(starts, len(starts), "decoding shapes")
     for first in steps:
-        shapes = decoder.decode(stored.part(first, min(first + CHUNK, len(stored))))
+        shapes = decoder.decode(stored.part(first, min(first + chunk, len(stored))))
         points, rows = points_of(shapes)
         parts.append(points)
         owners.append(first + rows)

@@ -7,7 +7,7 @@ from pathlib import Path
 from threading import Lock
 
 from placecell.descriptors.extractor import load_extractor
-from placecell.descriptors.manifest import FILE, Manifest, ModelError
+from placecell.descriptors.manifest import FILE, SHAPE_FILE, Manifest, ModelError
 from placecell.descriptors.pair_classifier import PairClassifier, load_pair_classifier
 from placecell.localization.confidence import NAME, Confidence, shipped
 from placecell.shapes.decoder import ShapeDecoder, load_shape_decoder
@@ -44,6 +44,11 @@ class Model:
     def id(self) -> str:
         """Return the id by which maps and codes name the model."""
         return self.manifest.model_id
+
+    @property
+    def has_shapes(self) -> bool:
+        """Return whether the model has a shape decoder."""
+        return SHAPE_FILE in self.manifest.files
 
 
 class Models:

@@ -71,6 +71,7 @@ def test_both_clients_have_the_same_methods() -> None:
         "coverage", "tags", "set_tags", "anchor", "set_anchor", "delete_anchor", "fit_anchor",
         "anchors", "named_anchor", "set_named_anchor", "delete_named_anchor", "events",
         "mirror", "set_mirror", "delete_mirror", "optimize_map", "segment_shape",
+            "segment_shapes",
     }  # fmt: skip
 
 

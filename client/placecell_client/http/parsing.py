@@ -275,7 +275,15 @@ def optimization(answer: HttpResponse) -> Optimization:
 
 def segment_shape(answer: HttpResponse) -> SegmentShape:
     """Read the response of `GET /maps/{map}/segments/{id}/shape`."""
-    content = _content(answer)
+    return _shape_of(_content(answer))
+
+
+def segment_shapes(answer: HttpResponse) -> list[SegmentShape]:
+    """Read the response of `GET /maps/{map}/shapes`."""
+    return [_shape_of(each) for each in _content(answer)["shapes"]]
+
+
+def _shape_of(content: dict[str, Any]) -> SegmentShape:
     told = content["class"]
     return SegmentShape(
         id=content["id"],

@@ -464,6 +464,10 @@ class Calls:
         """Build `GET /maps/{map}/segments/{id}/shape`."""
         return Call("GET", _path(name, f"/segments/{segment}/shape"), parsing.segment_shape)
 
+    def segment_shapes(self, name: str, segments: Sequence[int]) -> Call[list[SegmentShape]]:
+        """Build `GET /maps/{map}/shapes`."""
+        return Call("GET", _path(name, "/shapes", id=list(segments)), parsing.segment_shapes)
+
     def compact_map(self, name: str, keep: int) -> Call[int]:
         """Build `POST /maps/{map}/compact`."""
         path = _path(name, "/compact", keep=keep)

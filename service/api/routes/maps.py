@@ -180,12 +180,14 @@ async def put_response(write: MapWrite, result: WriteResult) -> Response:
 
 def _detail(state: State, principal: Principal, snapshot: MapSnapshot) -> bytes:
     site = state.engine.calibration(snapshot)
+    model = state.engine.models.find(snapshot.model_id)
     return render(
         detail_of(
             snapshot,
             principal,
             site,
             state.engine.annotations.of(snapshot),
+            shapes=model is not None and model.has_shapes,
         ),
         JSON,
     )

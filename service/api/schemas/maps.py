@@ -103,6 +103,10 @@ class MapDetailOut(MapOut):
         description="Source of a map that is a read-only copy of another service's map. Null for "
         "all other maps."
     )
+    shapes: bool = Field(
+        description="Whether the shapes of the segments can be decoded: the model of the map is "
+        "loaded and has a shape decoder."
+    )
 
 
 class MapsResponse(BaseModel):

@@ -1,4 +1,4 @@
-"""Schema of the shape of a stored segment as JSON."""
+"""Schemas of the shapes of stored segments as JSON."""
 
 from pydantic import BaseModel, Field
 
@@ -24,4 +24,14 @@ class ShapeOut(BaseModel):
     )
     points: list[tuple[float, float, float]] = Field(
         description="Centers of the occupied voxels in the map's frame, meters, to 1 cm."
+    )
+
+
+class ShapesOut(BaseModel):
+    """Shapes of several stored segments of a map."""
+
+    map: str
+    shapes: list[ShapeOut] = Field(description="Shapes, by ascending id of their segments.")
+    missing: list[int] = Field(
+        description="Ids that the map does not have: the segments were removed or replaced."
     )

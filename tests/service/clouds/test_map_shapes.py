@@ -9,7 +9,9 @@ from placecell_client import Client, CompactMap, encode
 from starlette.testclient import TestClient
 from typer.testing import CliRunner
 
+from benchmarks.synthetic_maps.road_map import road_map
 from cli import app
+from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import DEFAULT_MODEL, MODELS_FOLDER
 from service.app import create_app
 from service.core.settings import Settings
@@ -18,10 +20,19 @@ from tests.placecell.sources.clouds.writers import read
 
 pytestmark = pytest.mark.slow
 
+JSON = {"Accept": "application/json"}
+
 
 @pytest.fixture(scope="module")
 def yard() -> CompactMap:
     return map_of(walls())
+
+
+@pytest.fixture(scope="module")
+def plain() -> CompactMap:
+    manifest = Manifest.load(MODELS_FOLDER / "eigenvalue")
+    codes = np.random.default_rng(1).integers(-128, 128, (5, manifest.code_bytes), np.int8)
+    return road_map(codes, manifest, "bench")
 
 
 @pytest.fixture(scope="module")
@@ -56,6 +67,45 @@ def test_client_reads_the_shape(service: TestClient, yard: CompactMap) -> None:
     assert shape.voxel_m == pytest.approx(0.2)
     assert shape.class_name == "building"
     assert shape.model_id == yard.model_id
+
+
+def test_shapes_of_several_segments_are_those_of_each(service: TestClient) -> None:
+    answer = service.get("/maps/yard/shapes?id=12&id=10&id=99&id=12")
+    assert answer.status_code == 200, answer.text
+    told = answer.json()
+    assert told["missing"] == [99]
+    assert [each["id"] for each in told["shapes"]] == [10, 12]
+    alone = [service.get(f"/maps/yard/segments/{one}/shape").json() for one in (10, 12)]
+    assert told["shapes"] == alone
+    assert alone[0]["points"] != alone[1]["points"]
+    assert service.get("/maps/yard/shapes?id=99").json() == {
+        "map": "yard",
+        "shapes": [],
+        "missing": [99],
+    }
+
+
+def test_client_reads_several_shapes(service: TestClient) -> None:
+    client = Client("http://127.0.0.1", transport=service._transport)
+    shapes = client.segment_shapes("yard", [13, 99, 11])
+    assert [each.id for each in shapes] == [11, 13]
+    np.testing.assert_array_equal(shapes[0].points, client.segment_shape("yard", 11).points)
+
+
+@pytest.mark.parametrize(
+    "query", ["", "id=x", "id=-1", "id=4294967296", "&".join(f"id={one}" for one in range(101))]
+)
+def test_no_ids_bad_ids_and_too_many_are_refused(service: TestClient, query: str) -> None:
+    assert service.get(f"/maps/yard/shapes?{query}").status_code == 422
+
+
+def test_map_says_whether_its_shapes_can_be_decoded(service: TestClient, plain: CompactMap) -> None:
+    assert service.get("/maps/yard", headers=JSON).json()["shapes"] is True
+    assert service.put("/maps/plain", content=encode(plain)).is_success
+    assert service.get("/maps/plain", headers=JSON).json()["shapes"] is False
+    refused = service.get("/maps/plain/shapes?id=1")
+    assert refused.status_code == 409
+    assert refused.json()["type"].endswith("no-shapes")
 
 
 def test_unknown_segment_and_model_without_a_decoder_are_told(

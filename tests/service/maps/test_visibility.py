@@ -134,6 +134,7 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
     options: dict[str, list[str]] = {
         "/events": ["seconds=0"],
         "/maps/{map}/ids": ["count=3"],
+        "/maps/{map}/shapes": ["id=1&id=2"],
         "/maps/{map}/export": ["to=ply", "to=pcd&color=robot", "to=geojson&anchor=49,8"],
         "/maps/{map}/scans": ["robot=zoe", "robot=ann"],
         "/maps/{map}/versions/{version}/restore": ["dry_run=true", ""],
@@ -173,7 +174,8 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
         ("/maps/{map}/uploads/{digest}", "delete"), ("/maps/{map}/anchor", "delete"),
         ("/maps/{map}/anchors/{anchor}", "delete"), ("/maps/{map}/mirror", "put"),
         ("/maps/{map}/mirror", "delete"),  # it would refuse all later writes
-        ("/maps/{map}/segments/{id}/shape", "get"),  # the model of the test has no decoder
+        # The model of the test has no decoder.
+        ("/maps/{map}/segments/{id}/shape", "get"), ("/maps/{map}/shapes", "get"),
     }  # fmt: skip
     # A key of all maps sees all names.
     assert service.get("/maps", headers=boss).json()["maps"][1]["sources"]
