@@ -7,7 +7,7 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -39,6 +39,10 @@ COLORED = """() => {
   return count;
 }"""
 """Counts the pixels of the picture that are brighter than its background."""
+
+
+SHAPES = "/shapes?"
+"""Part of the address of each request for shapes."""
 
 
 def wait_until(page: "Page", condition: str, seconds: float = 30.0) -> None:
@@ -127,6 +131,86 @@ def test_segments_are_colored_by_class_and_tell_theirs(page: "Page", address: st
         card.get_by_text(told, exact=True).wait_for()
     with Client(address) as client:
         client.delete_map("classed")
+
+
+def test_shapes_are_drawn_near_the_middle_and_kept(
+    page: "Page", address: str, two_robots: TwoRobots
+) -> None:
+    asked: list[int] = []
+    page.on(
+        "request", lambda each: asked.append(each.url.count("id=")) if SHAPES in each.url else None
+    )
+    with Client(address) as client:
+        classes = np.full(len(two_robots.yard), 1 + 31 * CLASSES.index("building"), np.uint8)
+        client.put_map("built", replace(two_robots.yard, classes=classes))
+    show(page, address, "built")
+    wait_until(page, f"({COLORED})() > 100")
+    switch = page.get_by_role("button", name="Shapes", exact=True)
+    switch.wait_for()
+    assert not asked
+    page.wait_for_timeout(500)  # the last picture at rest
+    before = page.evaluate(COLORED)
+    switch.click()
+    told = page.get_by_role("status").filter(
+        has_text=re.compile("^Zoom in to see all shapes: 300 of")
+    )
+    told.wait_for()
+    assert page.get_by_label("Color by").input_value() == "class"
+    wait_until(page, f"({COLORED})() > {2 * before}")
+    assert sum(asked) == 300
+    assert max(asked) <= 50
+    # A part of this view needs only shapes that are kept.
+    page.get_by_label("Segments of the open maps").focus()
+    page.keyboard.press("t")
+    for _ in range(12):
+        page.keyboard.press("+")
+    page.get_by_role("status").filter(has_text=re.compile(r"^\d+ shapes?$")).wait_for()
+    nearer = sum(asked)
+    for _ in range(12):
+        page.keyboard.press("-")
+    page.keyboard.press("t")
+    told.wait_for()
+    assert sum(asked) < nearer + 300
+    switch.click()
+    told.wait_for(state="detached")
+    wait_until(page, f"Math.abs(({COLORED})() - {before}) < {0.2 * before}")
+    with Client(address) as client:
+        client.delete_map("built")
+
+
+def test_shapes_of_a_view_that_moved_on_are_canceled(page: "Page", address: str) -> None:
+    failed: list[str] = []
+    page.on("requestfailed", lambda each: failed.append(each.url))
+    held: list[Any] = []
+    page.route(f"**{SHAPES}*", lambda route: held.append(route))  # noqa: PLW0108 - Playwright needs a function
+    show(page, address, "yard")
+    page.get_by_role("button", name="Shapes", exact=True).click()
+    page.get_by_role("status").filter(has_text="Loading shapes: 0 of").wait_for()
+    until = time.monotonic() + 10
+    while not held:
+        assert time.monotonic() < until
+        page.wait_for_timeout(50)
+    page.unroute(f"**{SHAPES}*")
+    page.get_by_label("Segments of the open maps").focus()
+    page.keyboard.press("ArrowLeft")
+    page.get_by_role("status").filter(has_text="Zoom in to see all shapes").wait_for()
+    assert len(failed) == len(held) == 1
+    assert SHAPES in failed[0]
+
+
+def test_map_of_a_model_without_a_decoder_has_no_shapes(browser: "Browser", tmp_path: Path) -> None:
+    manifest = Manifest.load(MODELS_FOLDER / "eigenvalue")
+    codes = np.random.default_rng(1).integers(-128, 128, (20, manifest.code_bytes), np.int8)
+    with (
+        running_service(tmp_path, "--model", "eigenvalue") as address,
+        browser.new_page() as page,
+        Client(address) as client,
+    ):
+        client.put_map("plain", road_map(codes, manifest, "bench"))
+        with page.expect_response(lambda each: each.url.endswith("/maps/plain") and each.ok):
+            page.goto(address)
+        page.get_by_text("20 segments", exact=True).wait_for()
+        assert not page.get_by_role("button", name="Shapes", exact=True).count()
 
 
 def test_click_on_a_point_selects_it(page: "Page", address: str) -> None:

@@ -1,7 +1,7 @@
 // The public HTTP API. Every address is relative to the page, so it holds behind a path prefix.
 import type {
   Alignment, KeyInfo, LocalizeAnswer, MapDetail, MapList, MapSummary, MatchAnswer, Merged, Optimized, Pose,
-  RobotState, Scan, Version, Written,
+  RobotState, Scan, Shapes, Version, Written,
 } from "./types";
 
 const KEY = "placecell-key";
@@ -20,7 +20,7 @@ export class ApiError extends Error {
 
 export interface Options {
   method?: string;
-  query?: Record<string, string | number | boolean | undefined>;
+  query?: Record<string, string | number | boolean | number[] | undefined>;
   json?: unknown;
   body?: BodyInit;
   headers?: Record<string, string>;
@@ -41,7 +41,8 @@ const pathOf = (...parts: (string | number)[]): string =>
 export async function send(path: string, options: Options = {}): Promise<Response> {
   const address = new URL(path, document.baseURI);
   for (const [name, value] of Object.entries(options.query ?? {})) {
-    if (value !== undefined) address.searchParams.set(name, String(value));
+    if (value === undefined) continue;
+    for (const each of Array.isArray(value) ? value : [value]) address.searchParams.append(name, String(each));
   }
   const headers: Record<string, string> = { Accept: "application/json", ...options.headers };
   const key = storedKey();
@@ -88,6 +89,8 @@ export const api = {
   metrics: async () => (await send("metrics", { headers: { Accept: "text/plain" } })).text(),
   maps: () => json<MapList>("maps"),
   map: (name: string) => json<MapDetail>(pathOf("maps", name)),
+  shapes: (name: string, ids: number[], signal: AbortSignal) =>
+    json<Shapes>(pathOf("maps", name, "shapes"), { query: { id: ids }, signal }),
   versions: async (name: string) =>
     (await json<{ versions: Version[] }>(pathOf("maps", name, "versions"))).versions,
   restore: (name: string, version: number, etag: string, dryRun = false) =>

@@ -26,6 +26,14 @@ export interface MapSummary {
 export interface MapDetail extends MapSummary {
   calibration: { state: string; read: number } | null;
   anchor: Anchor | null;
+  /** Whether the service can decode the shapes of the segments. */
+  shapes: boolean;
+}
+
+/** Points of some segments in the map's frame; segments that the map does not have are missing. */
+export interface Shapes {
+  shapes: { id: number; points: Vector[] }[];
+  missing: number[];
 }
 
 export interface MapList {

@@ -12,15 +12,21 @@ varying vec3 vTint;
 uniform float size;
 uniform float perspective;
 uniform float least;
+uniform float most;
 void main() {
   vTint = tint;
   vec4 place = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * place;
-  gl_PointSize = clamp(perspective > 0.0 ? size * perspective / -place.z : size, least, 12.0);
+  gl_PointSize = clamp(perspective > 0.0 ? size * perspective / -place.z : size, least, most);
 }`;
 const FRAGMENT = `
 varying vec3 vTint;
 void main() { gl_FragColor = vec4(vTint, 1.0); }`;
+
+/** Edge length of a drawn point of a shape, meters: less than a voxel, so that it can be told from the next. */
+export const VOXEL_M = 0.14;
+/** Brightness of the lowest points of a shape. */
+const DARKEST = 0.5;
 
 /** A path is broken where two captures lie farther apart in meters or seconds. */
 const GAP_METERS = 30;
@@ -38,6 +44,14 @@ export class MapLayer {
   /** Row of each drawn point: a fixed shuffle, so that any first part is a sample of the whole. */
   private readonly rows: Uint32Array;
   private readonly tints: BufferAttribute;
+  /** Decoded shapes of some segments; none are there before they are asked for. */
+  readonly shapes: Points<BufferGeometry, ShaderMaterial>;
+  /** Row of each point of `shapes`. */
+  private shapeRows = new Uint32Array();
+  /** Brightness of each point of `shapes`: the foot of a shape is darker than its top. */
+  private shades = new Float32Array();
+  /** Color of each row, three bytes. */
+  private colors: Uint8Array;
 
   constructor(readonly content: MapContent) {
     const { centroids, ids } = content;
@@ -65,13 +79,13 @@ export class MapLayer {
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
     this.tints = new BufferAttribute(new Uint8Array(3 * ids.length), 3, true);
     geometry.setAttribute("tint", this.tints);
-    this.points = new Points(geometry, new ShaderMaterial({
-      vertexShader: VERTEX, fragmentShader: FRAGMENT,
-      uniforms: { size: { value: 2 }, perspective: { value: 0 }, least: { value: ids.length < 50_000 ? 2.5 : 1.5 } },
-    }));
-    this.points.frustumCulled = false;
+    this.points = new Points(geometry, dots(ids.length < 50_000 ? 2.5 : 1.5, 12));
+    this.colors = new Uint8Array(3 * ids.length);
+    this.shapes = new Points(new BufferGeometry(), dots(1, 40));
+    this.shapes.visible = false;
+    for (const each of [this.points, this.shapes]) each.frustumCulled = false;
     [this.paths, this.pathRobots] = pathsOf(content, this.middle);
-    this.group.add(this.points, this.paths);
+    this.group.add(this.points, this.shapes, this.paths);
     this.group.matrixAutoUpdate = false;
     this.place(new Matrix4());
   }
@@ -105,6 +119,8 @@ export class MapLayer {
   }
 
   setColors(colors: Uint8Array): void {
+    this.colors = colors;
+    this.colorShapes();
     const array = this.tints.array as Uint8Array;
     this.rows.forEach((row, place) => {
       array[3 * place] = colors[3 * row]!;
@@ -112,6 +128,77 @@ export class MapLayer {
       array[3 * place + 2] = colors[3 * row + 2]!;
     });
     this.tints.needsUpdate = true;
+  }
+
+  /** Draw the shapes of some rows, in the colors of their segments. Points are relative to the centroid. */
+  drawShapes(shapes: { row: number; points: Float32Array }[]): void {
+    const count = shapes.reduce((sum, each) => sum + each.points.length / 3, 0);
+    this.shapes.geometry.dispose();
+    this.shapes.geometry = new BufferGeometry();
+    this.shapes.visible = count > 0;
+    this.shapeRows = new Uint32Array(count);
+    this.shades = new Float32Array(count);
+    if (!count) return;
+    const places = new Float32Array(3 * count);
+    let place = 0;
+    for (const { row, points } of shapes) {
+      const offset = [0, 1, 2].map((axis) => this.content.centroids[3 * row + axis]! - this.middle.getComponent(axis));
+      let [low, high] = [Infinity, -Infinity];
+      for (let at = 2; at < points.length; at += 3) [low, high] = [Math.min(low, points[at]!), Math.max(high, points[at]!)];
+      for (let at = 0; at < points.length; at += 3, place += 1) {
+        this.shapeRows[place] = row;
+        this.shades[place] = DARKEST + (1 - DARKEST) * (points[at + 2]! - low) / Math.max(high - low, VOXEL_M);
+        for (let axis = 0; axis < 3; axis += 1) places[3 * place + axis] = points[at + axis]! + offset[axis]!;
+      }
+    }
+    this.shapes.geometry.setAttribute("position", new BufferAttribute(places, 3));
+    this.shapes.geometry.setAttribute("tint", new BufferAttribute(new Uint8Array(3 * count), 3, true));
+    this.colorShapes();
+  }
+
+  private colorShapes(): void {
+    if (!this.shapeRows.length) return;
+    const tints = this.shapes.geometry.getAttribute("tint");
+    const array = tints.array as Uint8Array;
+    this.shapeRows.forEach((row, place) => {
+      for (let axis = 0; axis < 3; axis += 1) array[3 * place + axis] = this.shades[place]! * this.colors[3 * row + axis]!;
+    });
+    tints.needsUpdate = true;
+  }
+
+  /**
+   * Return the rows in the picture that are nearest to a place of the scene, each with its horizontal
+   * distance in meters, and how many segments are in the picture.
+   */
+  nearest(
+    camera: PerspectiveCamera | OrthographicCamera, target: Vector3, most: number,
+  ): { rows: [number, number][]; inView: number } {
+    const all = new Matrix4()
+      .multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse)
+      .multiply(this.group.matrix).elements;
+    const middle = target.clone().applyMatrix4(this.group.matrix.clone().invert());
+    const at = this.points.geometry.getAttribute("position").array;
+    let rows: [number, number][] = [];
+    let inView = 0;
+    let farthest = Infinity;
+    const keep = (): void => {
+      rows = rows.sort((a, b) => a[1] - b[1]).slice(0, most);
+      if (rows.length === most) farthest = rows[most - 1]![1];
+    };
+    for (let place = 0; place < this.rows.length; place += 1) {
+      const [px, py, pz] = [at[3 * place]!, at[3 * place + 1]!, at[3 * place + 2]!];
+      const w = all[3]! * px + all[7]! * py + all[11]! * pz + all[15]!;
+      if (w <= 0) continue;
+      if (Math.abs(all[0]! * px + all[4]! * py + all[8]! * pz + all[12]!) > w) continue;
+      if (Math.abs(all[1]! * px + all[5]! * py + all[9]! * pz + all[13]!) > w) continue;
+      inView += 1;
+      const away = Math.hypot(px - middle.x, py - middle.y);
+      if (away >= farthest) continue;
+      rows.push([this.rows[place]!, away]);
+      if (rows.length >= 4 * most) keep();
+    }
+    keep();
+    return { rows, inView };
   }
 
   /** Draw at most so many points. */
@@ -149,11 +236,19 @@ export class MapLayer {
   }
 
   dispose(): void {
-    for (const each of [this.points, this.paths]) {
+    for (const each of [this.points, this.shapes, this.paths]) {
       each.geometry.dispose();
       (each.material as ShaderMaterial).dispose();
     }
   }
+}
+
+/** Material of square points, whose edges have so many pixels at least and at most. */
+function dots(least: number, most: number): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: VERTEX, fragmentShader: FRAGMENT,
+    uniforms: { size: { value: 2 }, perspective: { value: 0 }, least: { value: least }, most: { value: most } },
+  });
 }
 
 /** A permutation of 0 to count - 1 that is the same each time. */

@@ -7,7 +7,7 @@ import {
 import { MapControls } from "three/addons/controls/MapControls.js";
 import type { Pose, Vector } from "../api/types";
 import type { Color } from "./colors";
-import type { MapLayer } from "./map_layer";
+import { VOXEL_M, type MapLayer } from "./map_layer";
 
 /** Longest time to draw one picture while the view moves, milliseconds. */
 const FRAME_MS = 40;
@@ -302,10 +302,15 @@ export class View {
     this.total = [...this.layers.values()].reduce((sum, each) => sum + each.content.ids.length, 0);
     const share = moving ? Math.min(1, this.budget / Math.max(this.total, 1)) : 1;
     this.drawn = 0;
+    // Meters into pixels: everywhere the same from above, else at a distance of one meter.
+    const half = this.canvas.height / 2;
+    const pixels = this.isAbove ? half / this.reach() : half / Math.tan((this.perspective.fov * Math.PI) / 360);
     for (const layer of this.layers.values()) {
       this.drawn += layer.limit(Math.ceil(share * layer.content.ids.length));
       layer.points.material.uniforms["size"]!.value = this.isAbove ? 2.5 : 0.6;
-      layer.points.material.uniforms["perspective"]!.value = this.isAbove ? 0 : this.canvas.height / 2;
+      layer.points.material.uniforms["perspective"]!.value = this.isAbove ? 0 : half;
+      layer.shapes.material.uniforms["size"]!.value = this.isAbove ? VOXEL_M * pixels : VOXEL_M;
+      layer.shapes.material.uniforms["perspective"]!.value = this.isAbove ? 0 : pixels;
     }
     this.camera.updateMatrixWorld();
     this.renderer.render(this.scene, this.camera);

@@ -6,6 +6,7 @@ import {
   above, anchor, changesShown, colorBy, current, hiddenKinds, legend, loading, mayWriteAny, measured, measuring, open, picture, recolor,
   robots, scanShown, scene, select, selectId, showPaths, start,
 } from "../state/store";
+import { hasShapes, shapesOn, shapesShown, toggleShapes, watchShapes } from "../state/shapes";
 import { isLost } from "./parts";
 import { Vector3 } from "three";
 import { Button, count, meters } from "./parts";
@@ -18,6 +19,7 @@ export function Stage() {
   useEffect(() => {
     try {
       void start(new View(canvas.current!));
+      watchShapes();
     } catch (error) {
       setFailure(`This browser draws no 3D pictures (WebGL): ${error instanceof Error ? error.message : ""}`);
     }
@@ -162,6 +164,7 @@ function Tools() {
       <Button onClick={() => scene().fit()} title="Key: F">Show all</Button>
       <Button onClick={toggleMeasure} pressed={measuring.value} title="Click two segments. Key: M">Measure</Button>
       <Button onClick={() => { showPaths.value = !showPaths.value; recolor(); }} pressed={showPaths.value}>Paths</Button>
+      {hasShapes.value && <Button onClick={toggleShapes} pressed={shapesOn.value} title="Shapes that the service decodes from the codes of the segments">Shapes</Button>}
       <form onSubmit={find}>
         <label>
           <span class="hidden">Segment id</span>
@@ -170,6 +173,7 @@ function Tools() {
         <button type="submit">Find</button>
       </form>
       {told && <span role="alert">{told}</span>}
+      <Shapes />
       {measuring.value && (
         <span role="status">
           {measured.value ? `${meters(measured.value.meters)} apart, ${meters(measured.value.vertical)} of it up` : "Choose two segments."}
@@ -177,6 +181,15 @@ function Tools() {
       )}
     </div>
   );
+}
+
+function Shapes() {
+  const shown = shapesShown.value;
+  if (!shown) return null;
+  const { inView, chosen, drawn } = shown;
+  if (drawn < chosen) return <span role="status">Loading shapes: {drawn} of {chosen}.</span>;
+  if (chosen < inView) return <span role="status">Zoom in to see all shapes: {chosen} of {count(inView)} are drawn.</span>;
+  return <span role="status">{count(drawn)} {drawn === 1 ? "shape" : "shapes"}</span>;
 }
 
 function Legend() {
