@@ -50,7 +50,11 @@ class MapSide:
     ) -> "MapSide":
         """Prepare a map; `prepare` may change the poses of its captures."""
         content = snapshot.layers.content()
-        content = content if prepare is None else prepare(content)
+        return cls.holding(snapshot, content if prepare is None else prepare(content))
+
+    @classmethod
+    def holding(cls, snapshot: MapSnapshot, content: CompactMap) -> "MapSide":
+        """Return a map with this content, whose captures may be at other poses."""
         viewpoints = content.frame_positions[content.frame_index]
         return cls(snapshot, content, MapView(content.centroids, viewpoints))
 

@@ -139,7 +139,7 @@ def bend_content(
     layers = MapLayers.of(content)
     search = StoredSegmentSearch(
         model,
-        content,
+        content.codes,
         index_of(content.codes, model.manifest.quantizer),
         layers.sites.of(layers, model.manifest),
     )

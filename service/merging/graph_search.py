@@ -1,9 +1,8 @@
-"""Search for similar segments within one stored map, for the loops of its pose graph."""
+"""Search for similar segments within stored maps, for the loops of a pose graph."""
 
 import numpy as np
-from placecell_client import CompactMap
 
-from placecell.core.types import Bool, Float64, Int64
+from placecell.core.types import Bool, Float64, Int8, Int64
 from placecell.descriptors.site_calibration import SiteCalibration
 from service.inference.match_probability import QueryComparison
 from service.inference.model_registry import Model
@@ -14,22 +13,22 @@ PAIRS = 1 << 16
 
 
 class StoredSegmentSearch:
-    """Nearest rows and match probabilities within one map (`SegmentSearch`)."""
+    """Nearest rows and match probabilities among some segments (`SegmentSearch`)."""
 
     def __init__(
-        self, model: Model, content: CompactMap, index: MapIndex, site: SiteCalibration | None
+        self, model: Model, codes: Int8, index: MapIndex, site: SiteCalibration | None
     ) -> None:
         """Create it.
 
         Args:
             model: model that made the codes.
-            content: segments of the map.
+            codes: int8 (n, code bytes), codes of the segments.
             index: index over their codes.
             site: calibration of the map; None if the model has no site constants.
         """
-        self._codes = content.codes
+        self._codes = codes
         self._index = index
-        self._comparison = QueryComparison(content.codes, model, site, comparable=True)
+        self._comparison = QueryComparison(codes, model, site, comparable=True)
 
     def nearest(self, rows: Int64, excluded: Bool, k: int) -> tuple[Int64, Float64]:
         """Return the k most similar rows of each row, apart from excluded ones."""

@@ -25,6 +25,7 @@ from service.merging.join import (
     join_settled,
     known_pose,
 )
+from service.merging.local_agreement import plan_by_loops
 from service.merging.plan import MergePlan, plan_merge
 
 AnchorOutcome = Literal["carried", "kept", "conflict"]
@@ -123,7 +124,8 @@ class Merger:
         """Merge stored maps into a merged map, which is created if it does not exist.
 
         A new merged map has the frame of the first map. Maps that cannot be aligned with it are
-        left out; if no map can be aligned, nothing is written.
+        left out; if no map can be aligned, nothing is written. A merge that bends first lays maps
+        that do not align as a whole on each other by the loops between them.
 
         Args:
             name: name of the merged map.
@@ -148,6 +150,8 @@ class Merger:
         if target is not None and aligned[0] is target:
             before = self._known_poses(plan)
             plan = replace(plan, poses=plan.poses | before)
+        if not self.rigid and len(plan.poses) < len(plan.sides):
+            plan = plan_by_loops(plan, before, model, self.parameters, self.check)
         # A known pose is exact but for rounding; a new one is as exact as an alignment.
         joining = {
             number: ROUNDED if number in before else RADIUS

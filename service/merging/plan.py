@@ -83,7 +83,18 @@ def plan_merge(
         check: raises `Cancelled` if the deadline passed or the client disconnected.
         prepare: function that changes the poses of each map's captures first; None: they stay.
     """
-    sides = tuple(MapSide.of(snapshot, prepare) for snapshot in maps)
+    return plan_of(
+        tuple(MapSide.of(snapshot, prepare) for snapshot in maps), model, parameters, check
+    )
+
+
+def plan_of(
+    sides: tuple[MapSide, ...],
+    model: Model,
+    parameters: AlignmentParameters,
+    check: CancellationCheck,
+) -> MergePlan:
+    """Plan the merge of prepared maps; see `plan_merge`."""
     found: dict[tuple[int, int], MapAlignment] = {}
     for one in range(len(sides) - 1):
         found |= _with_later(one, sides, model, parameters, check)

@@ -44,21 +44,23 @@ def drifting_map(
     robot: str = "ann",
     odometry: bool = False,
     side: int = SIDE,
+    block: int = 0,
 ) -> tuple[CompactMap, Float64]:
-    """Return the map of a robot that drove around the block, and its true positions (f, 3).
+    """Return the map of a robot that drove around a block, and its true positions (f, 3).
 
     Args:
         model_id: id of the model.
-        seed: seed of drift and noise; the landmarks are always the same.
+        seed: seed of drift and noise.
         laps: number of laps.
         meters: drift after one meter, meters.
         degrees: the same of the heading.
         robot: name of the robot.
         odometry: whether the map states the odometry.
         side: number of captures on each side of the block.
+        block: seed of the landmarks: another one is another place.
     """
     rng = np.random.default_rng(seed)
-    places, looks = landmarks(side=side)
+    places, looks = landmarks(block, side)
     true, headings = square_path(side, laps)
     positions, yaws = drifted(true, headings, rng, meters, degrees)
     centroids, codes, frames = [], [], []
