@@ -34,7 +34,7 @@ def take_pictures(folder: Path, seed: int, progress: Progress) -> list[Path]:
         tempfile.TemporaryDirectory(prefix="placecell-page-") as scratch,
         chromium() as browser,
     ):
-        robots = TwoRobots.in_town(Path(scratch) / "town", seed, SCANS, progress)
+        robots = TwoRobots.in_town(Path(scratch) / "town", seed, SCANS, progress, with_classes=True)
         scan = robots.scan_file(Path(scratch))
         with running_service(Path(scratch) / "service") as address:
             robots.store(address)
@@ -90,6 +90,17 @@ def views(scan: Path) -> dict[str, Callable[["Page"], None]]:
         page.locator(".alike").wait_for()
         page.get_by_role("button", name="Show all").click()
 
+    def shapes(page: "Page") -> None:
+        show(page, "yard")
+        switch = page.get_by_role("button", name="Shapes", exact=True)
+        if not switch.is_visible():  # a narrow page folds its tools
+            page.get_by_role("button", name="Tools").click()
+        switch.click()
+        page.get_by_label("Segments of the open maps").focus()
+        for _ in range(6):
+            page.keyboard.press("+")
+        page.get_by_text("Zoom in to see all shapes").wait_for()
+
     def versions(page: "Page") -> None:
         show(page, "yard")
         page.get_by_role("button", name="Versions").click()
@@ -113,6 +124,7 @@ def views(scan: Path) -> dict[str, Callable[["Page"], None]]:
 
     return {
         "maps": lambda page: show(page, "yard"),
+        "shapes": shapes,
         "segment": segment,
         "align": align,
         "versions": versions,

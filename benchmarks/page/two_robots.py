@@ -31,7 +31,15 @@ class TwoRobots:
     position: Float64
 
     @classmethod
-    def in_town(cls, folder: Path, seed: int, scans: int, progress: Progress) -> "TwoRobots":
+    def in_town(
+        cls,
+        folder: Path,
+        seed: int,
+        scans: int,
+        progress: Progress,
+        *,
+        with_classes: bool = False,
+    ) -> "TwoRobots":
         """Let two robots drive through a town in opposite directions.
 
         Args:
@@ -39,11 +47,15 @@ class TwoRobots:
             seed: random seed of the town and of the second robot's frame.
             scans: scans of each robot.
             progress: function that shows the progress.
+            with_classes: whether the maps have the classes of their segments.
         """
         a, b = robots_of_town(folder, seed, scans, progress)
         b = in_own_frame(b, random_frame(seed))
         with Engine.temporary(MODELS_FOLDER / DEFAULT_MODEL) as engine:
-            yard, hall = a.build_map(engine, "yard"), b.build_map(engine, "hall")
+            yard, hall = (
+                robot.build_map(engine, name, with_classes=with_classes)
+                for robot, name in ((a, "yard"), (b, "hall"))
+            )
         middle = scans // 2
         scan = open_drive(a.drive.folder).scan(middle)
         return cls(yard, hall, scan, a.drive.poses[middle, :3, 3])
