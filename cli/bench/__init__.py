@@ -30,6 +30,7 @@ from cli.bench.robot_faults import robot_faults
 from cli.bench.search import search
 from cli.bench.sensors import sensors
 from cli.bench.serve import serve
+from cli.bench.shape_bytes import shape_bytes
 from cli.bench.soak import soak
 from cli.bench.town import town
 from cli.bench.views import views
@@ -68,4 +69,5 @@ bench.command()(takes_drives(robot))
 bench.command()(takes_drives(persistent))
 bench.command()(takes_drives(moving))
 bench.command()(takes_drives(completion))
+bench.command()(shape_bytes)
 bench.command()(page)

@@ -121,14 +121,32 @@ def shape_figures(
     }
     if training is not None:
         learned = CodedGrids.drawn(training, extractor, 10 * MEASURED, seed)
-        nearest = nearest_codes(known.codes, learned, extractor)
-        guessed = mean_shapes(learned.grids, nearest, known.grids)
-        figures["baseline_iou"] = rounded(overlap(guessed, known.grids))
-        figures["nearest_code_iou"] = rounded(overlap(learned.grids[nearest[:, 0]], known.grids))
-        placed = Shapes(guessed, true_centers(known.segments), shapes.bearings, shapes.voxel)
-        figures["baseline_chamfer_m"] = chamfer(placed, known.segments)
+        figures |= baseline_figures(known, learned, extractor)
         figures["baseline_training"] = training.name
     return figures
+
+
+def baseline_figures(
+    known: CodedGrids, learned: CodedGrids, extractor: Extractor
+) -> dict[str, float | None]:
+    """Return the figures of the mean grid of the nearest training codes.
+
+    Args:
+        known: measured segments.
+        learned: training segments.
+        extractor: model that described both.
+    """
+    nearest = nearest_codes(known.codes, learned, extractor)
+    guessed = mean_shapes(learned.grids, nearest, known.grids)
+    stored = known.stored()
+    bearings = bearings_of(stored.sensors - stored.centroids)
+    voxel = extractor.manifest.parameters.grid_voxel
+    placed = Shapes(guessed, true_centers(known.segments), bearings, voxel)
+    return {
+        "baseline_iou": rounded(overlap(guessed, known.grids)),
+        "nearest_code_iou": rounded(overlap(learned.grids[nearest[:, 0]], known.grids)),
+        "baseline_chamfer_m": chamfer(placed, known.segments),
+    }
 
 
 def overlap(guessed: Bool, true: Bool) -> Float64:

@@ -14,7 +14,7 @@ from training.methods.fit import fit
 from training.methods.processor import has_bfloat16
 from training.methods.run import Figures, Run
 from training.shapes.data import ShapeData
-from training.shapes.network import ShapeNetwork, shape_loss
+from training.shapes.network import ENTROPY, ShapeNetwork, shape_loss
 
 THRESHOLDS = np.linspace(-2.5, 2.5, 21)
 """Logits that are tried as threshold of an occupied voxel."""
@@ -57,6 +57,8 @@ class ShapeRecipe:
     """Share of segments without extents, so that maps without the column can be decoded."""
     without_counts: float = 0.3
     """Share of segments without number of points."""
+    entropy_weight: float = ENTROPY
+    """Weight of the cross entropy beside the soft intersection over union."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,12 +67,14 @@ class ShapeBatch:
 
     Attributes:
         inputs: arguments of `ShapeNetwork.forward`.
+        grids: occupancy of all voxels, 0 or 1, uint8 (n, grid voxels).
         occupied: occupancy of some voxels, 0 or 1, float32 (n, voxels).
         center: vector from the centroid to the grid's center, float32 (n, 3), meters.
         voxels: indices of the voxels, int64 (voxels,); None: all.
     """
 
     inputs: tuple[Tensor, ...]
+    grids: Tensor
     occupied: Tensor
     center: Tensor
     voxels: Tensor | None
@@ -98,8 +102,8 @@ def learn_shapes(
 
     def loss_of(batch: ShapeBatch) -> tuple[Tensor, Figures]:
         with torch.autocast("cpu", torch.bfloat16, enabled=has_bfloat16()):
-            logits, center = network.at(batch.voxels, *batch.inputs)
-        loss, overlap = shape_loss(logits, batch.occupied)
+            logits, center = network.at(batch.voxels, *batch.inputs, occupied=batch.grids)
+        loss, overlap = shape_loss(logits, batch.occupied, recipe.entropy_weight)
         away = functional.smooth_l1_loss(center.float(), batch.center, beta=0.1)
         return loss + CENTER_WEIGHT * away, {"overlap": overlap.item()}
 
@@ -146,6 +150,7 @@ def batch_of(
     )
     return ShapeBatch(
         tuple(torch.from_numpy(each) for each in inputs),
+        torch.from_numpy(occupied),
         torch.from_numpy(occupied if voxels is None else occupied[:, voxels]).float(),
         torch.from_numpy(data.centers[rows]),
         None if voxels is None else torch.from_numpy(voxels),
@@ -160,7 +165,7 @@ def overlaps_by_threshold(network: ShapeNetwork, quantizer: Quantizer, data: Sha
     for first in range(0, len(data), 64):
         rows = np.arange(first, min(first + 64, len(data)))
         batch = batch_of(data, quantizer, rows, network.basis.out_features)
-        logits = network(*batch.inputs)[0].flatten(1).numpy()
+        logits = network.at(None, *batch.inputs, occupied=batch.grids)[0].flatten(1).numpy()
         occupied = batch.occupied.numpy() > 0
         columns = []
         for threshold in THRESHOLDS:

@@ -34,23 +34,82 @@ FEATURES = 19
 """Number of inputs of the perceptron beside the descriptor."""
 
 
+NIBBLES, STEPS = 2, 15
+"""Number of values in a further byte, and largest number of a value's 4 bits."""
+
+
+class ExtraEncoder(nn.Module):
+    """Encoder of further bytes of a segment from its true grid; the rounding is in the training."""
+
+    def __init__(self, bytes_: int, grid: tuple[int, int, int], given: int) -> None:
+        """Create the encoder.
+
+        Args:
+            bytes_: number of further bytes.
+            grid: number of voxels along x, y, z.
+            given: number of values that the decoder has without the further bytes.
+        """
+        super().__init__()
+        self.grid, self.values = grid, NIBBLES * bytes_
+        self.padding = [even for size in reversed(grid) for even in (0, size % 2)]
+        self.convolutions = nn.Sequential(
+            nn.Conv3d(8, 24, 3, stride=2, padding=1),
+            nn.ReLU(),
+            nn.Conv3d(24, 48, 3, stride=2, padding=1),
+            nn.ReLU(),
+            nn.Flatten(),
+        )
+        cells = math.prod(-(-size // 8) for size in grid)
+        self.perceptron = nn.Sequential(
+            nn.Linear(48 * cells + given, HIDDEN), nn.ReLU(), nn.Linear(HIDDEN, self.values)
+        )
+
+    def forward(self, occupied: Tensor, given: Tensor) -> Tensor:
+        """Return the rounded values, -1 to 1, float32 (n, values).
+
+        The gradient passes the rounding unchanged (straight-through estimator, Bengio et al.,
+        2013).
+
+        Args:
+            occupied: all voxels of the true grids, 0 or 1, uint8 (n, voxels).
+            given: what the decoder has without the further bytes, float32 (n, given).
+        """
+        grids = functional.pad(occupied.reshape(-1, *self.grid), self.padding).float()
+        count, x, y, z = grids.shape
+        # The eight voxels of each cell are channels: nothing is lost, and the layers are small.
+        cells = grids.reshape(count, x // 2, 2, y // 2, 2, z // 2, 2).permute(0, 2, 4, 6, 1, 3, 5)
+        seen = self.convolutions(cells.reshape(count, 8, x // 2, y // 2, z // 2))
+        smooth = torch.tanh(self.perceptron(torch.cat([seen, given], dim=1)).float())
+        rounded = torch.round((smooth + 1) * STEPS / 2) * 2 / STEPS - 1
+        return smooth + (rounded - smooth).detach()
+
+
 class ShapeNetwork(nn.Module):
     """Network of the shape decoder."""
 
     own: Tensor
 
-    def __init__(self, own: Float32, grid: tuple[int, int, int], voxel: float) -> None:
+    def __init__(
+        self,
+        own: Float32,
+        grid: tuple[int, int, int],
+        voxel: float,
+        extra: ExtraEncoder | None = None,
+    ) -> None:
         """Create the network.
 
         Args:
             own: projection of a descriptor to the segment's own part, float32 (dimension, own).
             grid: number of voxels along x, y, z.
             voxel: edge length of a voxel, meters.
+            extra: encoder of further bytes from the true grid; None: the decoder reads only what a
+                map holds.
         """
         super().__init__()
-        self.grid, self.voxel = grid, voxel
+        self.grid, self.voxel, self.extra = grid, voxel, extra
         self.register_buffer("own", torch.from_numpy(own))
-        widths = [own.shape[1] + FEATURES, HIDDEN, HIDDEN]
+        further = 0 if extra is None else extra.values
+        widths = [own.shape[1] + FEATURES + further, HIDDEN, HIDDEN]
         layers: list[nn.Module] = []
         for before, after in pairwise(widths):
             layers += [nn.Linear(before, after), nn.ReLU()]
@@ -89,24 +148,30 @@ class ShapeNetwork(nn.Module):
         bearing: Tensor,
         extents: Tensor,
         points: Tensor,
+        *,
+        occupied: Tensor | None = None,
     ) -> tuple[Tensor, Tensor]:
         """Return logits of some voxels, float32 (n, voxels), and the centers; see `forward`.
 
         Args:
             voxels: indices of voxels, int64 (voxels,); None: all, as (n, x, y, z).
-            descriptor: see `forward`, as all others.
+            descriptor, offset, bearing, extents, points: see `forward`.
+            occupied: all voxels of the true grids, 0 or 1, uint8 (n, voxels), for the encoder of
+                further bytes; other networks do not read it.
         """
         cosine, sine = torch.cos(bearing)[:, None], torch.sin(bearing)[:, None]
         known = (extents.sum(dim=1, keepdim=True) > 0).float()
-        features = self.perceptron(
-            torch.cat(
-                [
-                    functional.normalize(descriptor @ self.own, dim=1) * self.own.shape[1] ** 0.5,
-                    *inputs(offset, cosine, sine, extents, known, points),
-                ],
-                dim=1,
-            )
+        given = torch.cat(
+            [
+                functional.normalize(descriptor @ self.own, dim=1) * self.own.shape[1] ** 0.5,
+                *inputs(offset, cosine, sine, extents, known, points),
+            ],
+            dim=1,
         )
+        if self.extra is not None:
+            assert occupied is not None
+            given = torch.cat([given, self.extra(occupied, given)], dim=1)
+        features = self.perceptron(given)
         weight: Tensor = self.basis.weight
         bias: Tensor = self.basis.bias
         if voxels is not None:
@@ -188,7 +253,9 @@ def outside(
     return functional.relu(torch.maximum(horizontal, vertical))
 
 
-def shape_loss(logits: Tensor, occupied: Tensor) -> tuple[Tensor, Tensor]:
+def shape_loss(
+    logits: Tensor, occupied: Tensor, entropy_weight: float = ENTROPY
+) -> tuple[Tensor, Tensor]:
     """Return the loss of logits, and the mean soft intersection over union.
 
     The loss is one minus the soft intersection over union (Rahman and Wang, 2016), which is what
@@ -197,6 +264,7 @@ def shape_loss(logits: Tensor, occupied: Tensor) -> tuple[Tensor, Tensor]:
     Args:
         logits: float32 (n, voxels).
         occupied: 0 or 1, float32 (n, voxels).
+        entropy_weight: weight of the cross entropy.
     """
     likely = torch.sigmoid(logits)
     common = (likely * occupied).sum(dim=1)
@@ -205,4 +273,4 @@ def shape_loss(logits: Tensor, occupied: Tensor) -> tuple[Tensor, Tensor]:
     entropy = functional.binary_cross_entropy_with_logits(
         logits, occupied, pos_weight=torch.tensor(OCCUPIED)
     )
-    return 1 - overlap + ENTROPY * entropy, overlap
+    return 1 - overlap + entropy_weight * entropy, overlap
