@@ -194,6 +194,11 @@ def test_shapes_of_a_view_that_moved_on_are_canceled(page: "Page", address: str)
     page.get_by_label("Segments of the open maps").focus()
     page.keyboard.press("ArrowLeft")
     page.get_by_role("status").filter(has_text="Zoom in to see all shapes").wait_for()
+    # The browser may report the canceled request after the answers to the later ones.
+    until = time.monotonic() + 10
+    while not failed:
+        assert time.monotonic() < until
+        page.wait_for_timeout(50)
     assert len(failed) == len(held) == 1
     assert SHAPES in failed[0]
 

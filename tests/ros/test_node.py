@@ -263,6 +263,7 @@ def test_parameters_become_settings(
 
     Node.given = {"map": "yard", "state": "~/state", "keyframe_meters": 3.0, "localize": False}
     Node.given |= {"session": "s-1", "map_frame": "site", "transform_hz": 10.0}
+    Node.given |= {"ignore": "movable, sign", "unmapped": "movable"}
     monkeypatch.setenv("PLACECELL_KEY", "k-1")
     monkeypatch.setenv("HOME", "/home/robot")
     ros.AgentNode().close()
@@ -271,6 +272,7 @@ def test_parameters_become_settings(
     assert read.agent.state == Path("/home/robot/state")
     assert (read.agent.keyframe_meters, read.agent.localize) == (3.0, False)
     assert (read.agent.session, read.agent.localize_map) == ("s-1", None)
+    assert (read.agent.ignore, read.agent.unmapped) == (("movable", "sign"), ("movable",))
     assert (read.node.map_frame, read.node.transform_hz, read.node.mount) == ("site", 10.0, None)
 
 

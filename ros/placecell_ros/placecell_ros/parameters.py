@@ -11,6 +11,8 @@ from robot.core.settings import AgentSettings
 from robot.node.settings import NodeSettings
 
 SIMPLE = (bool, int, float, str)
+NAMES = tuple[str, ...]
+"""Setting that is a text of names here: an empty list has no type in ROS 2."""
 KEY_VARIABLE = "PLACECELL_KEY"
 OWN: dict[str, Any] = {"service": "http://127.0.0.1:8000", "extrinsic": "", "wait": 5.0}
 """Parameters that are no settings: address of the service, the sensor's pose on the robot's base
@@ -50,7 +52,7 @@ def kind_of(hint: Any) -> Any:
     """Return the type of a parameter that holds a setting; None if no parameter can."""
     if hint in SIMPLE:
         return hint
-    return str if hint in (Path | None, str | None) else None
+    return str if hint in (Path | None, str | None, NAMES) else None
 
 
 def defaults_of(settings: Any) -> dict[str, Any]:
@@ -61,7 +63,7 @@ def defaults_of(settings: Any) -> dict[str, Any]:
         kind = kind_of(hints[each.name])
         if kind is not None:
             default = DEFAULTS.get(each.name, each.default)
-            found[each.name] = kind("" if default is MISSING or default is None else default)
+            found[each.name] = kind("" if default in (MISSING, None, ()) else default)
     return found
 
 
@@ -76,7 +78,9 @@ def settings_of(settings: Any, values: dict[str, Any], **more: Any) -> Any:
     given = dict(more)
     for name in defaults_of(settings):
         value: Any = values[name]
-        if hints[name] not in SIMPLE:
+        if hints[name] == NAMES:
+            value = tuple(value.replace(",", " ").split())
+        elif hints[name] not in SIMPLE:
             value = value or None
         if hints[name] == Path | None and value:
             value = Path(value).expanduser()

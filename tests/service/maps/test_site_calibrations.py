@@ -82,7 +82,7 @@ def test_state_advances_as_a_map_fills(serve: Any, sited: Manifest) -> None:
         assert 'placecell_maps_by_calibration{state="default"} 0.0' in text
         listed = client.get("/maps").json()["maps"][0]
         detail = client.get("/maps/yard", headers=JSON).json()
-        alone = {"calibration", "anchor", "mirror"}
+        alone = {"calibration", "anchor", "mirror", "shapes"}
         assert listed == {key: value for key, value in detail.items() if key not in alone}
 
 
