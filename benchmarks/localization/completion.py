@@ -17,7 +17,7 @@ from scipy.stats import rankdata
 from benchmarks.localization.registration import Registration
 from evaluation.machine import machine
 from evaluation.poses.queries import Pair, PoseQuery, localize_query, spread
-from evaluation.poses.robot import Robot, clouds
+from evaluation.poses.robot import Robot
 from evaluation.recognition.retrieval import (
     CROSS_VIEW_METERS,
     Retrieval,
@@ -141,10 +141,8 @@ def refined_poses(
 
 def mapped_segments(robot: Robot) -> Segments:
     """Return the segments of a robot's map, in the order of its rows (`Robot.build_map`)."""
-    parts = [segments.take(np.flatnonzero(kept)) for _, segments, kept in robot.views()]
-    return Segments.of(
-        [cloud for part in parts for cloud in clouds(part)],
-        np.concatenate([part.sensors for part in parts]),
+    return Segments.concatenate(
+        [segments.take(np.flatnonzero(kept)) for _, segments, kept in robot.views()]
     )
 
 

@@ -5,7 +5,6 @@ import threading
 import time
 from array import array
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
 from types import ModuleType
@@ -16,9 +15,8 @@ import pytest
 import yaml
 
 from robot.core.settings import AgentSettings
-from robot.node.node import NodeAgent
 from robot.node.settings import NodeSettings
-from tests.robot.node.node_fakes import FakeAgent, cloud
+from tests.robot.node.node_fakes import Opened, cloud
 
 PACKAGE = Path(__file__).resolve().parents[2] / "ros" / "placecell_ros"
 STUBS = PACKAGE / "test" / "stubs"
@@ -48,21 +46,6 @@ def ros(monkeypatch: pytest.MonkeyPatch) -> Iterator[ModuleType]:
     rclpy.init()
     yield placecell_ros.agent_node
     forget()
-
-
-class Opened:
-    """Opener of a stand-in agent; knows whether it was closed."""
-
-    def __init__(self) -> None:
-        self.agent = FakeAgent()
-        self.parameters: Any = None
-        self.closed = 0
-
-    @contextmanager
-    def __call__(self, parameters: Any) -> Iterator[NodeAgent]:
-        self.parameters = parameters
-        yield self.agent
-        self.closed += 1
 
 
 @pytest.fixture

@@ -8,8 +8,6 @@ import sys
 import time
 import types
 from array import array
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +26,7 @@ from sensor_msgs.msg import PointCloud2, PointField  # noqa: E402
 from std_msgs.msg import Header  # noqa: E402
 from std_srvs.srv import Trigger  # noqa: E402
 
-from tests.robot.node.node_fakes import FakeAgent, cloud  # noqa: E402
+from tests.robot.node.node_fakes import Opened, cloud  # noqa: E402
 
 try:
     from tf2_msgs.msg import TFMessage
@@ -54,21 +52,6 @@ from placecell_ros.agent_node import AgentNode  # noqa: E402
 ARGUMENTS = ["", "--ros-args", "-p", "map:=yard", "-p", "robot:=ann", "-p", "wait:=2.5"]
 ARGUMENTS += ["-p", "extrinsic:=0 0 1.5 0 0 0", "-p", "use_sim_time:=false"]
 SECONDS = 20.0
-
-
-class Opened:
-    """Opener of a stand-in agent."""
-
-    def __init__(self) -> None:
-        self.agent = FakeAgent()
-        self.parameters: Any = None
-        self.closed = 0
-
-    @contextmanager
-    def __call__(self, parameters: Any) -> Iterator[FakeAgent]:
-        self.parameters = parameters
-        yield self.agent
-        self.closed += 1
 
 
 def stamp(seconds: float) -> Time:

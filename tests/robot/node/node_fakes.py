@@ -1,6 +1,9 @@
 """Stand-ins for the node's agent, publisher and clock, and its messages."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -10,6 +13,7 @@ from robot.core.map_to_odom import MapToOdom
 from robot.core.settings import AgentSettings
 from robot.core.status import AgentState, AgentStatus
 from robot.node.messages import CertainPose, Diagnostic, StampedTransform
+from robot.node.node import NodeAgent
 
 SECOND = 10**9
 FIELDS = [PointField(axis, 4 * number, 7) for number, axis in enumerate("xyz")]
@@ -47,6 +51,21 @@ class FakeAgent:
 
     def localize_now(self) -> None:
         self.requests += 1
+
+
+class Opened:
+    """Opener of a stand-in agent; knows whether it was closed."""
+
+    def __init__(self) -> None:
+        self.agent = FakeAgent()
+        self.parameters: Any = None
+        self.closed = 0
+
+    @contextmanager
+    def __call__(self, parameters: Any) -> Iterator[NodeAgent]:
+        self.parameters = parameters
+        yield self.agent
+        self.closed += 1
 
 
 @dataclass
