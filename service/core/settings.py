@@ -44,6 +44,7 @@ OTHER_NAMES = {
     PREFIX + "DEBUG": "'placecell': stack traces of unexpected errors",
     PREFIX + "TEST_STORE": "tests: `postgres` runs the tests of the service on PostgreSQL",
     PREFIX + "DRIVES": "tests: folder of recorded drives",
+    PREFIX + "ROS_PYTHON": "tests: Python that has rclpy",
     "PLACECELL_CACHE": "`placecell`: folder that keeps trajectories of odometry. (default: "
     "`~/.cache/placecell`)",
 }
