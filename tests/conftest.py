@@ -15,6 +15,7 @@ import pytest
 from hypothesis import settings
 
 from tests.service.postgres_server import ON_POSTGRES, postgres_database, postgres_server
+from tests.tracing import settrace
 
 __all__ = ["postgres_database", "postgres_server"]  # fixtures
 
@@ -44,6 +45,7 @@ def note_start(event: str, arguments: tuple[object, ...]) -> None:
 
 
 sys.addaudithook(note_start)
+sys.settrace = settrace
 
 
 def names_in(code: CodeType) -> Iterator[str]:
