@@ -83,16 +83,7 @@ class PlainWords(logging.Filter):
         return True
 
 
-class FirstErrors(logging.Filter):
-    """Drops what the driver logs at the end of a pipeline: the error before it is raised."""
-
-    def filter(self, record: logging.LogRecord) -> bool:
-        """Return whether a record is logged."""
-        return not str(record.msg).startswith("error ignored")
-
-
 logging.getLogger("psycopg.pool").addFilter(PlainWords())
-logging.getLogger("psycopg").addFilter(FirstErrors())
 
 
 class PostgresRows:
@@ -121,21 +112,15 @@ class PostgresRows:
 
 
 class GatheredRows:
-    """Statements on one connection that are sent together, once an answer is read.
+    """Statements on one connection that are sent as one message, once an answer is read.
 
-    Each sending ends with a synchronization, so the server knows that it waits for this service,
-    and ends the transaction of a stopped one (IDLE_SECONDS).
+    A service that is stopped between two messages leaves a server that waits for it, and that ends
+    the transaction (IDLE_SECONDS). The driver's pipelines send each statement by itself; a server
+    that has got a part of them does not count as waiting, and would keep the map's lock.
     """
 
-    def __init__(
-        self,
-        connection: Connection,
-        pipeline: psycopg.Pipeline,
-        watchdog: Watchdog,
-        seconds: float,
-    ) -> None:
+    def __init__(self, connection: Connection, watchdog: Watchdog, seconds: float) -> None:
         self._connection = connection
-        self._pipeline = pipeline
         self._watchdog = watchdog
         self._seconds = seconds
         self._gathered: list[GatheredAnswer] = []
@@ -156,13 +141,15 @@ class GatheredRows:
         gathered, self._gathered = self._gathered, []
         if not gathered:
             return
+        cursor = psycopg.ClientCursor(self._connection)  # it writes the values into the message
+        message = ";".join(
+            cursor.mogrify(_in_dialect(each.statement), each.values or None) for each in gathered
+        )
         with self._watchdog.limit(self._connection, self._seconds):
-            for each in gathered:
-                each.cursor = self._connection.execute(
-                    _in_dialect(each.statement), each.values or None
-                )
-            # Without it, or with a flush after it, the server would not count as waiting.
-            self._pipeline.sync()
+            cursor.execute(message.encode())
+        for each in gathered:
+            each.take(cursor)
+            cursor.nextset()
 
 
 class GatheredAnswer:
@@ -171,30 +158,37 @@ class GatheredAnswer:
     def __init__(self, rows: GatheredRows, statement: str, values: Sequence[Any]) -> None:
         self.statement = statement
         self.values = values
-        self.cursor: psycopg.Cursor[tuple[Any, ...]] | None = None
         self._rows = rows
+        self._found: Iterator[tuple[Any, ...]] | None = None
+        self._changed = -1
 
     @property
     def rowcount(self) -> int:
         """Number of changed rows."""
-        return self._sent().rowcount
+        self._sent()
+        return self._changed
 
     def fetchone(self) -> tuple[Any, ...] | None:
         """Return the next row; None after the last one."""
-        return self._sent().fetchone()
+        return next(self._sent(), None)
 
     def fetchall(self) -> list[tuple[Any, ...]]:
         """Return all other rows."""
-        return self._sent().fetchall()
+        return list(self._sent())
 
     def __iter__(self) -> Iterator[tuple[Any, ...]]:
-        return iter(self._sent())
+        return self._sent()
 
-    def _sent(self) -> psycopg.Cursor[tuple[Any, ...]]:
-        if self.cursor is None:
+    def take(self, cursor: psycopg.Cursor[tuple[Any, ...]]) -> None:
+        """Take the result at which a cursor is."""
+        self._changed = cursor.rowcount
+        self._found = iter(cursor.fetchall() if cursor.description else ())
+
+    def _sent(self) -> Iterator[tuple[Any, ...]]:
+        if self._found is None:
             self._rows.send()
-        assert self.cursor is not None
-        return self.cursor
+        assert self._found is not None
+        return self._found
 
 
 class PostgresDatabase:
@@ -279,7 +273,7 @@ class PostgresDatabase:
             seconds: seconds that a statement or the commit may take; STATEMENT_SECONDS unless
                 given.
             is_short: the writes are few and small. Those whose answers nobody reads are sent
-                together, so that they hold the map's lock for few round trips.
+                as one message, so that they hold the map's lock for few round trips.
 
         Raises:
             StoreError: nothing was changed; unless its message says that this is not known.
@@ -369,19 +363,20 @@ class PostgresDatabase:
         seconds = STATEMENT_SECONDS if seconds is None else seconds
         with self._pool.connection() as connection:
             try:
-                connection.autocommit = False
-                with self._sending(connection, seconds, is_short) as rows:
-                    rows.execute("SELECT set_config('lock_timeout', ?, true)", (_lock_timeout(),))
-                    result = work(rows, unsure)
-                    if isinstance(rows, GatheredRows):
-                        rows.send()
-                    current().check()
-                    attempt.is_committing = True
-                    with (
-                        _noticing(connection) as notices,
-                        self._watchdog.limit(connection, seconds),
-                    ):
-                        connection.commit()
+                connection.autocommit = True  # the transaction begins here, with what follows it
+                gathered = GatheredRows(connection, self._watchdog, seconds)
+                gathered.execute("BEGIN")
+                gathered.execute("SELECT set_config('lock_timeout', ?, true)", (_lock_timeout(),))
+                if is_short:
+                    result = work(gathered, unsure)
+                    gathered.send()
+                else:
+                    gathered.send()
+                    result = work(PostgresRows(connection, self._watchdog, seconds), unsure)
+                current().check()
+                attempt.is_committing = True
+                with _noticing(connection) as notices, self._watchdog.limit(connection, seconds):
+                    connection.commit()
             except psycopg.Error as error:
                 if is_lost(error):
                     connection.close()  # the pool makes another one
@@ -389,18 +384,6 @@ class PostgresDatabase:
             if SYNC_CANCELED & notices:
                 raise psycopg.OperationalError("the wait for the synchronous standby was canceled")
             return result
-
-    @contextmanager
-    def _sending(
-        self, connection: Connection, seconds: float, is_short: bool
-    ) -> Iterator[PostgresRows | GatheredRows]:
-        if not is_short or not psycopg.Pipeline.is_supported():
-            yield PostgresRows(connection, self._watchdog, seconds)
-            return
-        with ExitStack() as parts:
-            pipeline = parts.enter_context(connection.pipeline())
-            yield GatheredRows(connection, pipeline, self._watchdog, seconds)
-            parts.enter_context(self._watchdog.limit(connection, seconds))  # the end waits too
 
     def _note_error(self, error: psycopg.Error | None) -> None:
         self._last_error = error
