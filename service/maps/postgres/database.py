@@ -46,7 +46,7 @@ STATEMENT_SECONDS = 20.0
 LOCK_SECONDS = 3.0
 """Seconds to wait for a row that another transaction has locked."""
 
-IDLE_SECONDS = 2.0
+IDLE_SECONDS = 1.0
 """Seconds without a statement after which the server ends a write, so that a stopped service holds
 no lock."""
 
