@@ -76,7 +76,14 @@ def merge_row(maps: Sequence[TrueMap], engine: Engine, every: float = EVERY) -> 
         "merged_maps": len(merged.plan.poses),
         "merged_within_0_3_m": round(within(graph, shared_things(graph, true)), 4),
     }
-    outcomes = [localized(where, true, engine, every) for where in (content, straight)]
+    captures = {key: capture for capture, key in enumerate(capture_keys(content))}
+    outcomes = []
+    for where in (content, straight):
+        # Captures of one time are ordered by their places, which differ between the two maps.
+        same = np.array([captures[key] for key in capture_keys(where)], dtype=np.int64)
+        found = localized(where, true[same], engine, every)
+        found[:, 0] = same[found[:, 0]]
+        outcomes.append(found[np.argsort(found[:, 0])])
     for key, found in zip(("localized_merged", "localized_undrifted"), outcomes, strict=True):
         row |= {
             "localized_queries": len(found),
@@ -96,10 +103,11 @@ def interval_of_difference(graph: GraphMap, merged: Int64, undrifted: Int64) -> 
     Args:
         graph: the map.
         merged: int64 (queries, 2), capture and outcome of each query in the merged map.
-        undrifted: the same in the undrifted map.
+        undrifted: the same queries in the undrifted map, in the same order.
     """
     if not len(merged):
         return 0.0, 0.0
+    assert (merged[:, 0] == undrifted[:, 0]).all(), "the queries of the two maps differ"
     queries = merged[:, 0]
     step = (merged[:, 1] == IS_RIGHT).astype(int) - (undrifted[:, 1] == IS_RIGHT)
     stretches = np.column_stack(
@@ -120,8 +128,12 @@ def true_poses(content: CompactMap, maps: Sequence[TrueMap]) -> Float64:
         for each in maps
         for time, pose in zip(each.content.frame_times.tolist(), each.poses, strict=True)
     }
-    keys = zip(robots_of_captures(content), content.frame_times.tolist(), strict=True)
-    return np.stack([known[key] for key in keys])
+    return np.stack([known[key] for key in capture_keys(content)])
+
+
+def capture_keys(content: CompactMap) -> list[tuple[str, float]]:
+    """Return robot and time of each capture, which identify it in each map of these robots."""
+    return list(zip(robots_of_captures(content), content.frame_times.tolist(), strict=True))
 
 
 def localized(content: CompactMap, true: Float64, engine: Engine, every: float = EVERY) -> Int64:
