@@ -5,7 +5,7 @@ with a free line of sight, and with a segment behind it that this capture did se
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -93,17 +93,10 @@ def judge(
     verdicts = np.full(len(stored), UNSEEN, dtype=np.int8)
     if not len(stored) or not len(later):
         return verdicts
-    away = np.linalg.norm(stored.centroids - stored.viewpoints[stored.captures], axis=1)
-    reach = np.maximum(away, LEAST_REACH)
-    captures = np.unique(later.captures[later.captures >= 0])
-    if most_pairs is not None and len(captures):
-        pairs = sum(
-            int((np.linalg.norm(stored.centroids - later.viewpoints[each], axis=1) <= reach).sum())
-            * _around(later, later.viewpoints[each]).sum()
-            for each in captures.tolist()
-        )
-        captures = captures[:: max(1, -(-int(pairs) // most_pairs))]
-    for capture in captures.tolist():
+    reach = _reach(stored)
+    if most_pairs is not None:
+        later = thinned(stored, later, most_pairs)
+    for capture in _judging(later).tolist():
         check()
         viewpoint = later.viewpoints[capture]
         distance = np.linalg.norm(stored.centroids - viewpoint, axis=1)
@@ -116,6 +109,35 @@ def judge(
         # Absence from one capture is enough, unless another one sees the segment.
         verdicts[rows] = np.where(found == CONFIRMED, CONFIRMED, np.maximum(verdicts[rows], found))
     return verdicts
+
+
+def thinned(stored: ObservedSegments, later: ObservedSegments, most_pairs: int) -> ObservedSegments:
+    """Return a pass that judges segments from every second capture, or fewer.
+
+    Args:
+        stored: the segments.
+        later: all segments of the pass.
+        most_pairs: largest number of pairs of a stored and a later segment to compare.
+    """
+    captures, reach = _judging(later), _reach(stored)
+    pairs = sum(
+        int((np.linalg.norm(stored.centroids - later.viewpoints[each], axis=1) <= reach).sum())
+        * int(_around(later, later.viewpoints[each]).sum())
+        for each in captures.tolist()
+    )
+    kept = np.isin(later.captures, captures[:: max(1, -(-pairs // most_pairs))])
+    return replace(later, captures=np.where(kept, later.captures, -1))
+
+
+def _judging(later: ObservedSegments) -> Int64:
+    """Return the captures that a pass is judged from, int64 (captures,)."""
+    return np.unique(later.captures[later.captures >= 0])
+
+
+def _reach(stored: ObservedSegments) -> Float64:
+    """Return the distance up to which each segment should be seen, meters, float64 (n,)."""
+    away = np.linalg.norm(stored.centroids - stored.viewpoints[stored.captures], axis=1)
+    return np.asarray(np.maximum(away, LEAST_REACH))
 
 
 def _around(later: ObservedSegments, viewpoint: Float64) -> Bool:

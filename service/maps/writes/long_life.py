@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 from placecell_client import CompactMap, Delta
 from placecell_client.maps.canonical import canonical
+from placecell_client.maps.compact_map import OPTIONAL
 from placecell_client.maps.edit import apply, take, with_optional
 from scipy.spatial.transform import Rotation
 
 from placecell.core.cancellation import current
-from placecell.core.types import UInt8, UInt32
+from placecell.core.types import Bool, Float64, Int64, UInt32
 from placecell.lasting.judgment import ABSENT, CONFIRMED, ObservedSegments, judge
 from placecell.pose_graph.frames import NO_TRACK, headings, wrapped
 from service.maps.layers import MapLayers
@@ -58,6 +59,74 @@ def observed_segments(content: CompactMap) -> ObservedSegments:
     )
 
 
+class SegmentCounts:
+    """Counts of the passes that confirmed or missed some segments, while passes are judged.
+
+    Attributes:
+        seen: int64 (n,), time when each segment was last seen, whole seconds.
+        changed: bool (n,), segments whose counts changed.
+    """
+
+    def __init__(self, content: CompactMap) -> None:
+        """Begin with the counts of a map."""
+        self._content = with_optional(content, COLUMNS)
+        self._columns = {
+            name: np.asarray(getattr(self._content, name)).astype(np.int64) for name in COLUMNS
+        }
+        self.seen = self._columns["seen"]
+        self.changed = np.zeros(len(content), dtype=bool)
+
+    def seen_since(self, begun: int) -> Bool:
+        """Return which segments were seen in or after a pass that begins then, bool (n,)."""
+        return np.asarray(self.seen + PASS_SECONDS >= begun)
+
+    def missed_since(self, begun: int) -> Bool:
+        """Return which segments were missed in or after a pass that begins then, bool (n,)."""
+        return np.asarray(self._columns["missed"] + PASS_SECONDS >= begun)
+
+    def confirm(self, rows: Int64 | Bool) -> None:
+        """Count a pass that saw these segments."""
+        self._columns["confirmed"][rows] += 1
+        self._columns["absent"][rows] = 0
+        self.changed[rows] = True
+
+    def judge(
+        self,
+        rows: Int64,
+        stored: ObservedSegments,
+        later: ObservedSegments,
+        now: int,
+        most_pairs: int | None = None,
+    ) -> None:
+        """Count a pass that may have seen or missed segments.
+
+        Args:
+            rows: rows of the segments to judge, int64 (m,).
+            stored: these segments.
+            later: all segments of the pass.
+            now: time of the pass, whole seconds.
+            most_pairs: largest number of pairs of segments to compare; see `judge`.
+
+        Raises:
+            Cancelled: the deadline passed, or the client disconnected.
+        """
+        found = judge(stored, later, current().check, most_pairs)
+        there, gone = rows[found == CONFIRMED], rows[found == ABSENT]
+        self.seen[there] = now
+        self.confirm(there)
+        self._columns["absent"][gone] += 1
+        self._columns["missed"][gone] = now
+        self.changed[gone] = True
+
+    def counted(self) -> CompactMap:
+        """Return the segments with their counts."""
+        columns: dict[str, Any] = {
+            name: values.clip(max=np.iinfo(OPTIONAL[name][0]).max).astype(OPTIONAL[name][0])
+            for name, values in self._columns.items()
+        }
+        return replace(self._content, **columns)
+
+
 def judged_by(
     upload: CompactMap, unique: CompactMap, refreshed: UInt32, removed: UInt32, layers: MapLayers
 ) -> tuple[CompactMap, UInt32]:
@@ -82,42 +151,33 @@ def judged_by(
     near = take(near, ~np.isin(near.ids, np.concatenate([upload.ids, removed])))
     if not len(near):
         return unique, refreshed
-    near = with_optional(near, COLUMNS)
-    columns: dict[str, Any] = {name: np.array(getattr(near, name)) for name in COLUMNS}
-    begun, now = (
-        int(np.clip(np.floor(time), 0, np.iinfo(np.uint32).max))
-        for time in (upload.frame_times[captures[0]], upload.frame_times[-1])
-    )
-    before = columns["seen"].astype(np.int64)
+    counts = SegmentCounts(near)
+    begun, now = whole_seconds(upload.frame_times[[captures[0], -1]]).tolist()
     again = np.isin(near.ids, refreshed)
-    recent = again | (before + PASS_SECONDS >= begun)
-    open_rows = np.flatnonzero(
-        ~recent & (columns["missed"].astype(np.int64) + PASS_SECONDS < begun)
-    )
-    found = judge(
-        observed_segments(take(near, open_rows)),
+    before = counts.seen_since(begun)
+    recent = again | before
+    rows = np.flatnonzero(~recent & ~counts.missed_since(begun))
+    counts.judge(
+        rows,
+        observed_segments(take(near, rows)),
         _pass_of(upload, take(near, recent), int(captures[0])),
-        current().check,
+        now,
         MOST_PAIRS,
     )
-    there = np.zeros(len(near), dtype=bool)
-    there[open_rows[found == CONFIRMED]] = True
-    columns["seen"][there] = now
-    there |= again & (before + PASS_SECONDS < begun)
-    gone = np.zeros(len(near), dtype=bool)
-    gone[open_rows[found == ABSENT]] = True
-    columns["confirmed"][there] = _one_more(columns["confirmed"][there])
-    columns["absent"][there] = 0
-    columns["absent"][gone] = _one_more(columns["absent"][gone])
-    columns["missed"][gone] = now
-    if not (there | gone).any():
+    counts.confirm(again & ~before)
+    if not counts.changed.any():
         return unique, refreshed
     # The deduplication told when refreshed segments were seen.
     rows = np.searchsorted(unique.ids, near.ids[again])
-    columns["seen"][again] = np.asarray(with_optional(unique, ["seen"]).seen)[rows]
-    updates = canonical(take(replace(near, **columns), there | gone))
+    counts.seen[again] = np.asarray(with_optional(unique, ["seen"]).seen)[rows]
+    updates = canonical(take(counts.counted(), counts.changed))
     changed = apply(unique, Delta(updates, NONE))
     return changed, np.union1d(refreshed, updates.ids)
+
+
+def whole_seconds(times: Float64) -> Int64:
+    """Return times as `seen` and `missed` have them: whole seconds, clipped to uint32."""
+    return np.floor(times).clip(0, np.iinfo(np.uint32).max).astype(np.int64)
 
 
 def _pass_of(upload: CompactMap, recent: CompactMap, first: int) -> ObservedSegments:
@@ -133,7 +193,3 @@ def _pass_of(upload: CompactMap, recent: CompactMap, first: int) -> ObservedSegm
         own.viewpoints,
         np.concatenate([captures, np.full(len(others), -1)]),
     )
-
-
-def _one_more(counts: UInt8) -> UInt8:
-    return np.minimum(counts.astype(np.int64) + 1, 255).astype(np.uint8)

@@ -275,7 +275,12 @@ class MapWriter:
         return WriteResult(snapshot, len(content), 0, is_new=True)
 
     def commit(
-        self, snapshot: MapSnapshot, change: MapChange, operation: str, replaces: bool = False
+        self,
+        snapshot: MapSnapshot,
+        change: MapChange,
+        operation: str,
+        replaces: bool = False,
+        refreshed: UInt32 = NONE,
     ) -> WriteResult:
         """Store the next version if the key and the preconditions allow it; `writing` is held.
 
@@ -284,11 +289,12 @@ class MapWriter:
             change: what to change; an empty change succeeds and creates no version.
             operation: name of the operation in the history.
             replaces: the write replaces other content, so it needs If-Match.
+            refreshed: ids of segments whose counts and `seen` alone change.
         """
         if change.is_empty:
             return WriteResult(snapshot, 0, 0)
-        self._authorize(snapshot, change, replaces=replaces)
-        return self._store(snapshot, change, operation)
+        self._authorize(snapshot, change, refreshed, replaces)
+        return self._store(snapshot, change, operation, refreshed)
 
     def _check_model(self, content: CompactMap, kind: FileKind) -> None:
         model = self.models.find(content.model_id)
@@ -318,7 +324,7 @@ class MapWriter:
         Args:
             snapshot: the map as it is.
             change: what to change.
-            refreshed: ids of segments whose `seen` alone changes, which any robot may do.
+            refreshed: ids of segments whose counts and `seen` alone change, which any robot may do.
             replaces: the write replaces other content, so it needs If-Match.
         """
         for content in (change.before, change.delta.changed):
