@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from placecell_client import CompactMap, Delta, moved, originated
@@ -24,6 +25,9 @@ from service.merging.provenance import keys_in, moments_of, of_source, shared
 
 ROUNDED = 0.02
 """Largest distance in meters of equal centroids that were rounded before and after a rotation."""
+
+COUNTS = ("missed", "confirmed", "absent")
+"""Columns of the passes that confirmed or missed a segment; they come together."""
 
 ROUNDS = 20
 """Largest number of rounds of `join_settled`; two or three are usual."""
@@ -137,8 +141,7 @@ def join(
     """
     outcomes = []
     for part in parts:
-        placed = moved(part.content, part.pose.rotation, part.pose.translation, target.frame)
-        placed = followed(placed, [target])
+        placed = placed_in(target, part)
         target = with_optional(target, ("source", "source_ids"))
         known = keys_in(placed, target)
         given = keys_in(target, placed)
@@ -177,6 +180,15 @@ def join(
             )
         )
     return target, outcomes
+
+
+def placed_in(target: CompactMap, part: MergePart) -> CompactMap:
+    """Return the content of a part in the merged map's frame.
+
+    Captures that the merged map has follow those there, which an optimization may have moved.
+    """
+    placed = moved(part.content, part.pose.rotation, part.pose.translation, target.frame)
+    return followed(placed, [target])
 
 
 def join_settled(
@@ -250,7 +262,9 @@ def replaced(
 
 
 def seen_since(placed: CompactMap, target: CompactMap, rows: Int64, places: Int64) -> CompactMap:
-    """Return segments of the merged map that the part saw later, or whose class it knows better.
+    """Return segments of the merged map that the part saw or missed later, or knows better.
+
+    Of its counts, the higher `confirmed` stays, and the `missed` and `absent` that are newer.
 
     Args:
         placed: the part's content in the merged map's frame.
@@ -260,19 +274,34 @@ def seen_since(placed: CompactMap, target: CompactMap, rows: Int64, places: Int6
     """
     filled = with_optional(target, ["seen"])
     seen = last_seen(filled)
-    np.maximum.at(seen, places, last_seen(with_optional(placed, ["seen"]))[rows])
+    np.maximum.at(seen, places, last_seen(placed)[rows])
     later = seen > last_seen(filled)
     if target.classes is not None or placed.classes is not None:
         classes = classes_of(target).copy()
         classes[places] = most_probable(classes[places], classes_of(placed)[rows])
         later |= classes != classes_of(target)
         filled = replace(filled, classes=classes)
+    if placed.absent is not None:
+        filled = with_optional(filled, COUNTS)
+        newer = _judged_at(placed)[rows] > _judged_at(filled)[places]
+        columns: dict[str, Any] = {name: np.array(getattr(filled, name)) for name in COUNTS}
+        for name in ("missed", "absent"):
+            columns[name][places[newer]] = getattr(placed, name)[rows[newer]]
+        np.maximum.at(columns["confirmed"], places, np.asarray(placed.confirmed)[rows])
+        later[places[newer]] = True
+        later |= columns["confirmed"] != np.asarray(filled.confirmed)
+        filled = replace(filled, **columns)
     return take(replace(filled, seen=seen), later)
+
+
+def _judged_at(content: CompactMap) -> UInt32:
+    """Return when each segment was last seen or missed, whole seconds, uint32 (n,)."""
+    return np.asarray(np.maximum(last_seen(content), np.asarray(content.missed)))
 
 
 def last_seen(content: CompactMap) -> UInt32:
     """Return when each segment was last seen, whole seconds, uint32 (n,)."""
-    return np.array(content.seen)
+    return np.array(with_optional(content, ["seen"]).seen)
 
 
 def renumbered(content: CompactMap, first_id: int) -> CompactMap:

@@ -4,15 +4,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import numpy as np
 from placecell_client import CompactMap, MapFileError, encode
+from placecell_client.maps.edit import difference, with_optional
 
+from placecell.core.types import UInt32
 from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
 from placecell.pose_graph import PoseGraphParameters
 from service.core.problems import Problem
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import OutOfIdsError
-from service.maps.writes.deduplication import RADIUS, SameView
+from service.maps.writes.deduplication import NONE, RADIUS, SameView
 from service.maps.writes.writer import MapWriter, WriteResult, out_of_ids
 from service.merging.alignment import CancellationCheck, check_same_model
 from service.merging.bending import bend_content, straightened
@@ -25,13 +28,15 @@ from service.merging.join import (
     join_settled,
     known_pose,
 )
+from service.merging.judging import judged_map
 from service.merging.local_agreement import plan_by_loops
 from service.merging.plan import MergePlan, plan_merge
 
 AnchorOutcome = Literal["carried", "kept", "conflict"]
 
 TRIES = 3
-"""Number of times that a merge which bends is tried while the merged map is written."""
+"""Number of times that a merge is tried while the merged map is written. A rigid one then keeps
+writes waiting, and one that bends fails."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +93,8 @@ class _JoinedMaps:
         present: its segments.
         content: segments of the merged map.
         bent: the same after the optimization; None if it is rigid, or no capture moves.
+        written: the same after the judgment: the segments to write.
+        refreshed: ids of segments whose counts alone the judgment changed.
         outcomes: outcome of each map that was merged, by number.
         reserved: ids that were reserved for the new segments.
     """
@@ -96,6 +103,8 @@ class _JoinedMaps:
     present: CompactMap | None
     content: CompactMap
     bent: CompactMap | None
+    written: CompactMap
+    refreshed: UInt32
     outcomes: dict[int, PartOutcome]
     reserved: range | None
 
@@ -169,10 +178,7 @@ class Merger:
                 "nothing was changed. Send the request with dry_run for the reasons.",
             )
         self.check()
-        if self.rigid:
-            with maps.writing(name):
-                return self._write(name, plan, self._joined(name, target, plan, joining))
-        # The optimization may take minutes: nobody waits for it, and a write makes it void.
+        # This may take minutes: nobody waits for it, and a write makes it void.
         free: range | None = None
         for _ in range(TRIES):
             joined = self._joined(name, target, plan, joining, free)
@@ -181,6 +187,9 @@ class Merger:
                     return self._write(name, plan, joined)
             free = joined.reserved
             self.check()
+        if self.rigid:  # seconds: writes can wait
+            with maps.writing(name):
+                return self._write(name, plan, self._joined(name, target, plan, joining, free))
         raise Problem(
             409,
             "map-changed",
@@ -254,13 +263,20 @@ class Merger:
         if not self.rigid:
             self.check()
             _, bent = bend_content(content, model, PoseGraphParameters())
+        written, refreshed = content if bent is None else bent, NONE
+        if self.deduplicate:
+            judged = judged_map(written, present, parts, self.parameters)
+            if present is not None:
+                alike = with_optional(present, written.optional)
+                untouched = np.setdiff1d(judged.ids, difference(alike, written)[0].ids)
+                refreshed = np.intersect1d(untouched, present.ids)
+            written = judged.content
         outcomes = dict(zip(joining, found, strict=True))
-        return _JoinedMaps(snapshot, present, content, bent, outcomes, reserved)
+        return _JoinedMaps(snapshot, present, content, bent, written, refreshed, outcomes, reserved)
 
     def _write(self, name: str, plan: MergePlan, joined: _JoinedMaps) -> MergeResult:
         """Store the merged map; the caller holds its write lock."""
-        writer, snapshot = self.writer, joined.before
-        content = joined.content if joined.bent is None else joined.bent
+        writer, snapshot, content = self.writer, joined.before, joined.written
         result = MergeResult(
             plan=plan,
             outcomes=joined.outcomes,
@@ -279,7 +295,8 @@ class Merger:
         if self.dry_run:
             changed, removed = len(change.delta.changed), len(change.delta.removed)
             return replace(result, changed=changed, removed=removed)
-        written = writer.commit(snapshot, change, "merge" if joined.bent is None else "bend")
+        operation = "merge" if joined.bent is None else "bend"
+        written = writer.commit(snapshot, change, operation, refreshed=joined.refreshed)
         return replace(result, written=written, changed=written.changed, removed=written.removed)
 
     def _check_frame_kept(

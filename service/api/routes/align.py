@@ -97,7 +97,8 @@ async def merge(write: MapWriteOf) -> JSONResponse:
     out maps that it cannot align with the merged map. Each segment keeps its robot and its time,
     and the name of the map and the id that it comes from. The merge is written as one version:
     `dry_run` returns what it would change, and restoring the version before undoes it. A map that
-    has grown can be merged again.
+    has grown can be merged again. With `deduplicate`, the captures of the maps also confirm older
+    segments or miss them, if the maps state `extents`.
     """
     state = write.state
     async with write.receive(state.lanes.alignments, (JSON,)) as body:
