@@ -42,13 +42,15 @@ class CancelToken:
         flag: int32 (1,), not 0 once the work must stop. Compiled loops read it.
         deadline: time of `time.monotonic` after which the work must stop, seconds; inf for none.
             The flag does not change by itself at the deadline: the token's owner cancels it.
+        begun: time of `time.monotonic` at which the work began, seconds.
     """
 
-    __slots__ = ("deadline", "flag")
+    __slots__ = ("begun", "deadline", "flag")
 
     def __init__(self, deadline: float = inf) -> None:
         self.flag: Int32 = np.zeros(1, dtype=np.int32)
         self.deadline = deadline
+        self.begun = time.monotonic()
 
     def cancel(self) -> None:
         """Tell the work to stop at its next check."""

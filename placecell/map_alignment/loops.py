@@ -9,12 +9,15 @@ the maps themselves show whether they fit as well that way.
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-import networkx
 import numpy as np
 
 from placecell.core.types import Float64
 from placecell.localization import Pose
+
+if TYPE_CHECKING:
+    import networkx
 
 LONGEST = 4
 """Number of maps up to which all loops are checked. Of longer loops a cycle basis is checked."""
@@ -157,6 +160,8 @@ def loops_of(
     alignments: Sequence[PairwiseAlignment], without: Sequence[int] = ()
 ) -> tuple[Loop, ...]:
     """Return the loops of the alignments: all short ones, and a basis of the long ones."""
+    import networkx  # it has 285 modules, and not each start of a service needs them
+
     graph = networkx.Graph()
     for index, each in enumerate(alignments):
         if index not in without:
@@ -167,7 +172,7 @@ def loops_of(
 
 
 def measure_loop(
-    maps: Sequence[int], graph: networkx.Graph, alignments: Sequence[PairwiseAlignment]
+    maps: Sequence[int], graph: "networkx.Graph", alignments: Sequence[PairwiseAlignment]
 ) -> Loop:
     """Return the loop with its errors, measured at the middle of its first alignment."""
     steps = list(zip(maps, [*maps[1:], maps[0]], strict=True))
@@ -192,6 +197,8 @@ def poses_from(
 
     Paths follow the maximum spanning tree: proven alignments first, then those of larger weight.
     """
+    import networkx
+
     graph = networkx.Graph()
     graph.add_node(start)
     for index, each in enumerate(alignments):

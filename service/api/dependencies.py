@@ -11,6 +11,7 @@ import anyio.to_thread
 from fastapi import Depends, Header, Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
+from placecell.core.cancellation import current
 from service.annotations.annotations import MirrorMark
 from service.api.admission.admission import Lane, admitted
 from service.api.audit import record, record_write
@@ -181,7 +182,7 @@ class MapWrite:
         if engine.follower is not None:
             request = admitted()
             assert request is not None  # `receive` or `enter` has entered a lane
-            await request.run(lambda: engine.maps.catch_up(self.name))
+            await request.run(lambda: engine.maps.catch_up(self.name, current().begun))
             self._check_mirror(engine.mirror(self.name))
 
     def _check_mirror(self, mirror: MirrorMark | None) -> None:

@@ -73,7 +73,7 @@ class MapRepository:
         copied_segments: number of segments that writes have copied.
         most_segments: largest number of segments in memory; 0: no limit.
         on_delete: is called with the uid of each map that was deleted.
-        catch_up: loads what other services wrote to the map of a name.
+        catch_up: loads what other services wrote to the map of a name before a monotonic time.
         anchors: anchors of the maps, which follow captures that are moved.
     """
 
@@ -102,7 +102,7 @@ class MapRepository:
         self.store = store
         self.patterns = patterns
         self.most_segments = most_segments
-        self.catch_up: Callable[[str], None] = lambda _: None
+        self.catch_up: Callable[[str, float], None] = lambda *_: None
         self.shared = SharedIndexes()
         self.copied_segments = 0
         self.on_delete: Callable[[str], None] = lambda _: None

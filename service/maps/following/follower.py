@@ -5,6 +5,7 @@ import re
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from math import inf
 from threading import Event, Lock, Thread
 from time import monotonic
 from weakref import WeakValueDictionary
@@ -62,6 +63,7 @@ class Follower:
         self._guard = Lock()
         self._locks: WeakValueDictionary[str, Lock] = WeakValueDictionary()
         self._annotated: dict[str, int] = {}
+        self._looked: dict[str, float] = {}
         self._level_at = monotonic()
         self._behind_since: float | None = None
         self._failure: StoreError | None = None
@@ -104,8 +106,13 @@ class Follower:
             "written; see the log for the reason."
         )
 
-    def catch_up(self, name: str) -> None:
-        """Load the newest version of a map, if it is not in memory.
+    def catch_up(self, name: str, before: float | None = None) -> None:
+        """Load what was written to a map before a time, if it is not in memory.
+
+        Args:
+            name: name of the map.
+            before: time of `time.monotonic`; a look at the store that began later is enough. Now
+                unless given.
 
         Raises:
             StoreError: the store cannot tell which version is the newest.
@@ -113,9 +120,19 @@ class Follower:
         """
         if not self._maps.serves(name):
             return
+        before = monotonic() if before is None else before
         with self._alone(name):
-            while not self._is_level(name, self._store.find(name)):
-                pass
+            if self._looked.get(name, -inf) >= before:
+                return
+            is_level = False
+            while not is_level:
+                begun = monotonic()
+                found = self._store.find(name)
+                is_level = self._is_level(name, found)
+            if found is None:
+                self._looked.pop(name, None)
+            else:
+                self._looked[name] = begun
 
     def catch_up_all(self) -> None:
         """Load the newest versions of all maps; raises as `catch_up` does."""

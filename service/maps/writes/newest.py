@@ -2,8 +2,10 @@
 
 from collections.abc import Callable
 from functools import update_wrapper
+from time import monotonic
 from typing import Concatenate, ParamSpec, Protocol, TypeVar
 
+from placecell.core.cancellation import current
 from service.maps.repository import MapRepository, OutdatedError
 
 TRIES = 5
@@ -24,7 +26,7 @@ Writer = TypeVar("Writer", bound=_Writer)
 def on_newest(
     write: Callable[Concatenate[Writer, str, Parameters], Result],
 ) -> Callable[Concatenate[Writer, str, Parameters], Result]:
-    """Load the newest version of the map before a write, and repeat a write that was overtaken.
+    """Load what was written before a request, write, and repeat a write that was overtaken.
 
     Each try checks rights and preconditions against the version that it follows.
     """
@@ -32,13 +34,14 @@ def on_newest(
     def written(
         self: Writer, name: str, /, *args: Parameters.args, **kwargs: Parameters.kwargs
     ) -> Result:
+        before = current().begun
         for _ in range(TRIES - 1):
-            self.maps.catch_up(name)
+            self.maps.catch_up(name, before)
             try:
                 return write(self, name, *args, **kwargs)
             except OutdatedError:
-                continue
-        self.maps.catch_up(name)
+                before = monotonic()
+        self.maps.catch_up(name, before)
         return write(self, name, *args, **kwargs)
 
     return update_wrapper(written, write)

@@ -223,13 +223,30 @@ def test_writes_that_overtake_each_other_are_repeated(
         late.setattr(
             following.Follower,
             "catch_up",
-            lambda self, name: next(overtaken, None) or catch_up(self, name),
+            lambda self, *given: next(overtaken, None) or catch_up(self, *given),
         )
         written = edit(other, manifest, 20)
     assert tag(written).endswith("-3")
     refused = edit(other, manifest, 30, {"If-Match": f'"{first}"'})
     assert_problem(refused, 412, "precondition-failed")
     assert_problem(put(one, manifest, headers={"If-None-Match": "*"}), 412, "precondition-failed")
+
+
+def test_write_looks_once_for_what_others_wrote_before_it(
+    replica: Start, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The mark of a mirror and the version are those of one look: each costs a round trip."""
+    monkeypatch.setattr(following.Follower, "_work", lambda self: None)
+    one, other = replica("a"), replica("b")
+    put(one, manifest)
+    find, looks = PostgresStore.find, list[str]()
+    monkeypatch.setattr(
+        PostgresStore, "find", lambda self, name: looks.append(name) or find(self, name)
+    )
+    for first, service in enumerate([other, one, other, other, one], 2):
+        looks.clear()
+        assert tag(edit(service, manifest, 5 * first)).endswith(f"-{first}")
+        assert looks == ["yard"]
 
 
 def test_map_created_at_two_services_has_one_content(
