@@ -33,7 +33,12 @@ from benchmarks.replicas.judge import is_union, lost_in, search_in, view_of
 from benchmarks.replicas.missing_tool import haproxy_program
 from benchmarks.replicas.postgres_node import USER
 from benchmarks.replicas.postgres_pair import PostgresPair
-from benchmarks.replicas.replica_group import Replica, ReplicaGroup
+from benchmarks.replicas.replica_group import (
+    STARTING_NICE,
+    Replica,
+    ReplicaGroup,
+    may_set_niceness,
+)
 from benchmarks.synthetic_maps.random_maps import MapTemplate
 from evaluation.machine import machine
 
@@ -222,6 +227,7 @@ def run_fleet_crash(
     return _report(writers, readers, faults, verdict) | {
         "promotions": promotions,
         "failed_starts": failed_starts,
+        "starting_nice": STARTING_NICE if may_set_niceness() else 0,
         "restart_s": {"p50": round(starts[len(starts) // 2], 2), "max": round(starts[-1], 2)},
         "wrong": wrong,
         "good": is_good(verdict, readers, wrong),
