@@ -8,8 +8,9 @@ from typing import Concatenate, ParamSpec, Protocol, TypeVar
 from placecell.core.cancellation import current
 from service.maps.repository import MapRepository, OutdatedError
 
-TRIES = 5
-"""Number of times that a write is tried which other services overtake."""
+TRY_SECONDS = 10.0
+"""Seconds for which a write is tried that other services overtake, if its request waits as long.
+Each try that fails is one in which another write succeeded."""
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
@@ -34,14 +35,14 @@ def on_newest(
     def written(
         self: Writer, name: str, /, *args: Parameters.args, **kwargs: Parameters.kwargs
     ) -> Result:
-        before = current().begun
-        for _ in range(TRIES - 1):
+        before, until = current().begun, monotonic() + TRY_SECONDS
+        while True:
             self.maps.catch_up(name, before)
             try:
                 return write(self, name, *args, **kwargs)
             except OutdatedError:
                 before = monotonic()
-        self.maps.catch_up(name, before)
-        return write(self, name, *args, **kwargs)
+                if before > until:
+                    raise
 
     return update_wrapper(written, write)
