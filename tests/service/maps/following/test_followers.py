@@ -16,6 +16,7 @@ from service.maps.following import follower as following
 from service.maps.postgres import database
 from service.maps.postgres.store import PostgresStore
 from service.maps.postgres.tables import SCHEMA
+from service.maps.store import SharedMap
 from tests.service.postgres_server import PostgresServer
 from tests.service.service_builders import assert_problem, edit_of, map_of, random_codes
 
@@ -242,9 +243,12 @@ def test_write_looks_once_for_what_others_wrote_before_it(
     one, other = replica("a"), replica("b")
     put(one, manifest)
     find, looks = PostgresStore.find, list[str]()
-    monkeypatch.setattr(
-        PostgresStore, "find", lambda self, name: looks.append(name) or find(self, name)
-    )
+
+    def looked(store: PostgresStore, name: str) -> SharedMap | None:
+        looks.append(name)
+        return find(store, name)
+
+    monkeypatch.setattr(PostgresStore, "find", looked)
     for first, service in enumerate([other, one, other, other, one], 2):
         looks.clear()
         assert tag(edit(service, manifest, 5 * first)).endswith(f"-{first}")
