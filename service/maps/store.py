@@ -382,6 +382,13 @@ class SharedStore(MapStore, Protocol):
     def shared_maps(self) -> list[SharedMap]:
         """Return the newest states of all maps, by name."""
 
+    def commits_since(self, before: MapHead, head: MapHead) -> list[tuple[Commit, bytes]]:
+        """Return the commits after one version of a map, up to a newer one, with their deltas.
+
+        Raises:
+            KeyError: the later version does not follow the other, or not all commits are kept.
+        """
+
     def annotations_of(self, uid: str) -> list[Annotation]:
         """Return the annotations of a map; none if there is no such map."""
 

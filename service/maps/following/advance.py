@@ -6,27 +6,47 @@ from placecell.core.cancellation import current
 from service.maps.history import compose_all, replay
 from service.maps.repository import MapRepository
 from service.maps.snapshot import KEEPS_FRAME, MapSnapshot
-from service.maps.store import Commit, MapHistory
+from service.maps.store import Commit, MapHead, SharedStore
 
 
-def newest(maps: MapRepository, history: MapHistory, before: MapSnapshot | None) -> MapSnapshot:
+def newest(
+    maps: MapRepository, store: SharedStore, head: MapHead, before: MapSnapshot | None
+) -> MapSnapshot:
     """Build the newest version of a map.
 
     Only the commits since the version in memory are read, unless its history has another version
     in its place (a fork), or was compacted beyond it. Then the whole map is read.
 
+    Args:
+        maps: maps in memory.
+        store: store of the maps.
+        head: head of the map in the store.
+        before: version in memory; None if there is none.
+
     Raises:
+        KeyError: the map was deleted.
         StoreError: the stored data is damaged, or the store fails.
         MapFileError: the data was written by an incompatible version of Placecell.
     """
-    head = history.head
-    if before is None or not _is_of(history, before):
+    if before is not None:
+        try:
+            commits = store.commits_since(before.head, head)
+        except KeyError:
+            pass  # a fork, compacted, or damaged
+        else:
+            return _advanced(maps, before, head, commits)
+    with store.read(head.uid) as history:
+        head = history.head
         layers = replay(history, head.sequence)
-        index = maps.indexed(layers, None)
-        return MapSnapshot(head, layers, head.oldest, head.sequence, index)
-    commits: list[Commit] = []
-    deltas = []
-    for commit, blob in history.blobs(before.head.sequence, head.sequence):
+    return MapSnapshot(head, layers, head.oldest, head.sequence, maps.indexed(layers, None))
+
+
+def _advanced(
+    maps: MapRepository, before: MapSnapshot, head: MapHead, found: list[tuple[Commit, bytes]]
+) -> MapSnapshot:
+    """Return the version that these commits lead to from one in memory."""
+    commits, deltas = [], []
+    for commit, blob in found:
         current().check()
         commits.append(commit)
         deltas.append(decode_delta(blob))
@@ -39,17 +59,6 @@ def newest(maps: MapRepository, history: MapHistory, before: MapSnapshot | None)
         frame_since=_frame_since(before, commits),
         index=maps.indexed(layers, before),
     )
-
-
-def _is_of(history: MapHistory, before: MapSnapshot) -> bool:
-    """Return whether the history has this version, so that later commits lead on from it."""
-    head = history.head
-    if head.uid != before.head.uid or head.sequence < before.head.sequence:
-        return False
-    try:
-        return history.mark(before.head.sequence) == before.head.mark
-    except KeyError:
-        return False
 
 
 def _frame_since(before: MapSnapshot, commits: list[Commit]) -> int:

@@ -280,9 +280,8 @@ class Follower:
         ):
             return True
         try:
-            with self._store.read(found.head.uid) as history:
-                warm = before if isinstance(before, MapSnapshot) else None
-                found_now = newest(self._maps, history, warm)
+            warm = before if isinstance(before, MapSnapshot) else None
+            found_now = newest(self._maps, self._store, found.head, warm)
             after: MapEntry = found_now
             if isinstance(before, ColdMap):
                 after = ColdMap.of(found_now)  # no request asked for it

@@ -21,7 +21,7 @@ from service.maps.postgres.tables import (
     is_current,
 )
 from service.maps.sql.annotations import errors_in, known_annotations, write_annotations
-from service.maps.sql.history import SqlHistory
+from service.maps.sql.history import SqlHistory, commits_since
 from service.maps.sql.operations import (
     append_commit,
     check_mark,
@@ -40,6 +40,7 @@ from service.maps.store import (
     IDS,
     NO_IDS,
     Annotation,
+    Commit,
     Ids,
     MapHead,
     Note,
@@ -250,6 +251,14 @@ class PostgresStore:
         """Return the newest states of all maps, by name."""
         found = self._database.read(lambda rows: rows.execute(f"{SHARED} ORDER BY name").fetchall())
         return [_shared(row) for row in found]
+
+    def commits_since(self, before: MapHead, head: MapHead) -> list[tuple[Commit, bytes]]:
+        """Return the commits after one version of a map, up to a newer one, with their deltas.
+
+        Raises:
+            KeyError: the later version does not follow the other, or not all commits are kept.
+        """
+        return self._database.read(lambda rows: commits_since(rows, before, head))
 
     def annotations_of(self, uid: str) -> list[Annotation]:
         """Return the annotations of a map; none if there is no such map."""

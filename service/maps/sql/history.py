@@ -81,3 +81,32 @@ class SqlHistory:
 
     def _damaged(self, part: str) -> StoreError:
         return StoreError("damaged", f"map {self._head.name!r}: its {part} was altered or lost")
+
+
+def commits_since(rows: Rows, before: MapHead, head: MapHead) -> list[tuple[Commit, bytes]]:
+    """Return the commits after one version of a map, up to a newer one, by one statement at most.
+
+    The marks prove that each version follows the one before it.
+
+    Raises:
+        KeyError: the later version does not follow the other, or not all commits are kept.
+    """
+    if before.uid != head.uid:
+        raise KeyError(before.uid)
+    found: list[tuple[Commit, bytes]] = []
+    sequence, mark = before.sequence, before.mark
+    if sequence < head.sequence:
+        for *columns, blob in rows.execute(
+            f"{COMMIT}, delta FROM commits WHERE map = (SELECT map FROM maps WHERE uid = ?) "
+            "AND sequence > ? AND sequence <= ? ORDER BY sequence",
+            (head.uid, sequence, head.sequence),
+        ):
+            commit, sequence = commit_from(columns), sequence + 1
+            is_next = commit.sequence == sequence and isinstance(blob, bytes)
+            if not is_next or not follows(mark, commit, blob):
+                raise KeyError(sequence)
+            found.append((commit, blob))
+            mark = commit.mark
+    if (sequence, mark) != (head.sequence, head.mark):
+        raise KeyError(head.sequence)
+    return found

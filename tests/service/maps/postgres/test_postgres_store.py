@@ -231,6 +231,50 @@ def test_write_takes_few_round_trips(postgres_database: str) -> None:
             assert turns(lambda: store.annotate(head.uid, [tag])) == counter.messages - messages
 
 
+def test_commits_since_a_version_lead_to_a_later_one(store: PostgresStore) -> None:
+    heads = [store.create("yard", b"file", NOTE, 0)]
+    for blob in (b"one", b"two", b"three"):
+        heads.append(store.append(heads[-1], blob, NOTE, 0))
+    blobs = [b"one", b"two", b"three"]
+    for begin, before in enumerate(heads):
+        for head in heads[begin:]:
+            found = store.commits_since(before, head)
+            assert [blob for _, blob in found] == blobs[begin : head.sequence - 1]
+            assert [before.mark, *(commit.mark for commit, _ in found)][-1] == head.mark
+    # A write that adds no version changes the head only.
+    store.reserve(heads[-1].uid, 5)
+    assert store.commits_since(heads[-1], store.heads()[0]) == []
+
+
+def test_commits_since_a_version_that_is_not_of_the_history_are_refused(
+    store: PostgresStore, postgres_database: str
+) -> None:
+    first = store.create("yard", b"file", NOTE, 0)
+    second = store.append(first, b"one", NOTE, 0)
+    third = store.append(second, b"two", NOTE, 0)
+    other = store.create("other", b"file", NOTE, 0)
+    for before, head in [
+        (third, second),  # it is older
+        (other, second),  # it is of another map
+        (replace(first, mark=other.mark), second),  # a fork
+        (replace(second, mark=other.mark), second),  # a fork at the same version
+        (first, replace(third, mark=other.mark)),
+        (third, replace(third, sequence=4)),  # a version that is not there
+    ]:
+        with pytest.raises(KeyError):
+            store.commits_since(before, head)
+    store.compact(first.uid, 2, b"file of 2")
+    assert [blob for _, blob in store.commits_since(second, third)] == [b"two"]
+    with pytest.raises(KeyError):
+        store.commits_since(first, third)
+    with psycopg.connect(postgres_database) as other_client:
+        other_client.execute(
+            f"UPDATE {SCHEMA}.commits SET delta = 'too' WHERE sequence = 3".encode()
+        )
+    with pytest.raises(KeyError):
+        store.commits_since(second, third)
+
+
 def test_import_may_take_longer_than_other_writes(
     store: PostgresStore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
