@@ -31,7 +31,7 @@ SAME, MOST_PLACES = 0.3, 0.9
 """Distance within which this share of a map's segments must lie where the merged map has them,
 meters: farther off, segments that still stand there are found absent (`docs/results/drift.md`)."""
 
-MOST_PAIRS_OF_A_MERGE = 16_000_000
+MOST_PAIRS_OF_A_MERGE = 64_000_000
 """Largest number of pairs of segments that a merge compares, which bounds its time."""
 
 
