@@ -6,7 +6,7 @@ optimized as one pose graph, and each part of a map is moved back to where it la
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,13 +26,37 @@ from placecell.pose_graph.frames import (
     rotated,
     wrapped,
 )
-from placecell.pose_graph.loops import GraphMap, SegmentSearch, find_loops, links_of
+from placecell.pose_graph.known_loops import KnownLoops
+from placecell.pose_graph.loops import (
+    FoundLoop,
+    GraphMap,
+    SegmentSearch,
+    chosen_captures,
+    find_loops,
+    links_of,
+)
 from placecell.pose_graph.odometry_correction import with_corrected_odometry
 from placecell.pose_graph.optimize import solver
 from placecell.pose_graph.parameters import PoseGraphParameters
 
 LEVER = 10.0
 """Distance from a capture to a second point ahead of it, which represents its heading, meters."""
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BentMaps:
+    """Maps that were bent by the loops between them and within them.
+
+    Attributes:
+        poses: for each map, positions, float64 (f, 3), meters, and headings, float64 (f,), radians,
+            of its captures. Each part of a map that loops connect keeps its place in the map on
+            average.
+        known: the loops, for an optimization of the joined maps; None if two maps share an odometry
+            track, which does not tell their captures apart then.
+    """
+
+    poses: list[tuple[Float64, Float64]]
+    known: KnownLoops | None
+
 
 ALL_RIGHT = LoopCheck((), (), frozenset())
 """Check that rejects no alignment."""
@@ -43,7 +67,7 @@ def bend_between(
     search: SegmentSearch,
     parameters: PoseGraphParameters,
     confidence: Confidence | None = None,
-) -> list[tuple[Float64, Float64]]:
+) -> BentMaps:
     """Bend maps by the loops between them and within them.
 
     Args:
@@ -53,10 +77,6 @@ def bend_between(
         parameters: constants of the pose graph.
         confidence: model of the loops' probability; None for that of the default model.
 
-    Returns:
-        For each map, positions, float64 (f, 3), meters, and headings, float64 (f,), radians, of its
-        captures. Each part of a map that loops connect keeps its place in the map on average.
-
     Raises:
         Cancelled: The request is late, or its client disconnected.
         PoseGraphUnavailableError: The extra `pose-graph` is not installed.
@@ -64,14 +84,28 @@ def bend_between(
     solver()  # before a search that may take minutes
     graph, maps = united(graphs)
     driven = with_corrected_odometry(graph.as_driven(), parameters)
-    loops = find_loops(driven, search, parameters, confidence)
+    localized = chosen_captures(driven, parameters)
+    loops = find_loops(driven, search, parameters, confidence, localized)
     frames = replace(graph.frames, odometry=driven.frames.odometry)
     initial = initial_poses(frames, maps, links_of(loops, parameters), parameters)
     begun = _placed(frames, [initial[number] for number in maps.tolist()])
     bent = judged(begun, loops, parameters)
     positions, yaws = in_own_frames(bent, frames, maps)
     counts = np.cumsum([len(each.frames) for each in graphs])[:-1]
-    return list(zip(np.split(positions, counts), np.split(yaws, counts), strict=True))
+    poses = list(zip(np.split(positions, counts), np.split(yaws, counts), strict=True))
+    return BentMaps(poses, _known(graphs, driven.frames, localized, loops))
+
+
+def _known(
+    graphs: Sequence[GraphMap], frames: GraphFrames, localized: Int64, loops: list[FoundLoop]
+) -> KnownLoops | None:
+    """Return loops by the tracks that the captures have in their own maps; None if ambiguous."""
+    tracks = [each.frames.odometry.tracks for each in graphs]
+    own = np.concatenate([np.unique(each[each != NO_TRACK]) for each in tracks])
+    if len(np.unique(own)) < len(own):
+        return None
+    odometry = replace(frames.odometry, tracks=np.concatenate(tracks))
+    return KnownLoops.of(replace(frames, odometry=odometry), localized, loops)
 
 
 def united(graphs: Sequence[GraphMap]) -> tuple[GraphMap, Int64]:

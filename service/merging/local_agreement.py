@@ -13,6 +13,7 @@ from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
 from placecell.pose_graph import PoseGraphParameters
 from placecell.pose_graph.between_maps import bend_between
+from placecell.pose_graph.known_loops import KnownLoops
 from service.inference.model_registry import Model
 from service.maps.index import index_of
 from service.maps.layers import MapLayers
@@ -46,19 +47,26 @@ def plan_by_loops(
     loose = [number for number in range(len(sides)) if number not in known]
     if len(loose) < 2:
         return plan
-    for number, side in zip(loose, bent_sides([sides[each] for each in loose], model), strict=True):
+    bent, loops = bent_sides([sides[each] for each in loose], model)
+    for number, side in zip(loose, bent, strict=True):
         sides[number] = side
     check()
     again = plan_of(tuple(sides), model, parameters, check)
     poses = again.poses | dict(known)
-    return replace(again, poses=poses) if poses.keys() > plan.poses.keys() else plan
+    return replace(again, poses=poses, loops=loops) if poses.keys() > plan.poses.keys() else plan
 
 
-def bent_sides(sides: Sequence[MapSide], model: Model) -> list[MapSide]:
-    """Return maps whose captures are moved by the loops between them, each in its own frame."""
+def bent_sides(
+    sides: Sequence[MapSide], model: Model
+) -> tuple[list[MapSide], KnownLoops | None]:
+    """Move the captures of maps by the loops between them, each map in its own frame.
+
+    Returns:
+        The maps, and the loops for the optimization of the merged map.
+    """
     contents = [side.content for side in sides]
     if not all(len(each) for each in contents):
-        return list(sides)
+        return list(sides), None
     graphs = [graph_of(each) for each in contents]
     codes = np.concatenate([each.codes for each in contents])
     # The largest map shows best how much the segments of the place are alike.
@@ -70,7 +78,8 @@ def bent_sides(sides: Sequence[MapSide], model: Model) -> list[MapSide]:
         largest.sites.of(largest, model.manifest),
     )
     found = bend_between(graphs, search, PoseGraphParameters(), model.confidence)
-    return [
+    moved = [
         MapSide.holding(side.snapshot, bent_content(side.content, graph, *poses))
-        for side, graph, poses in zip(sides, graphs, found, strict=True)
+        for side, graph, poses in zip(sides, graphs, found.poses, strict=True)
     ]
+    return moved, found.known

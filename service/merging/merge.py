@@ -262,7 +262,7 @@ class Merger:
         bent = None
         if not self.rigid:
             self.check()
-            _, bent = bend_content(content, model, PoseGraphParameters())
+            _, bent = bend_content(content, model, PoseGraphParameters(), plan.loops)
         written, refreshed = content if bent is None else bent, NONE
         if self.deduplicate:
             judged = judged_map(written, present, parts, self.parameters)

@@ -15,6 +15,7 @@ from placecell.map_alignment import (
     poses_from,
 )
 from placecell.map_alignment.loops import LoopCheck
+from placecell.pose_graph.known_loops import KnownLoops
 from service.inference.model_registry import Model
 from service.maps.snapshot import MapSnapshot
 from service.merging.alignment import (
@@ -54,12 +55,15 @@ class MergePlan:
         checked: result of the loop check.
         poses: transform from each map's frame into the first's, by number; only of maps that are
             connected with the first.
+        loops: loops that were found within and between the maps, for the optimization of the merged
+            map; None if none were searched.
     """
 
     sides: tuple[MapSide, ...]
     pairs: tuple[AlignedPair, ...]
     checked: LoopCheck
     poses: dict[int, Pose]
+    loops: KnownLoops | None = None
 
     @property
     def maps(self) -> tuple[MapSnapshot, ...]:

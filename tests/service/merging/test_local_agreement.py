@@ -1,5 +1,6 @@
 """Merges of maps that drift too much to align as a whole, over HTTP."""
 
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -56,7 +57,18 @@ def error(merged: CompactMap, true: Float64) -> float:
     return float(np.sqrt(((parts[0] - parts[1]) ** 2).sum(axis=1).mean()))
 
 
-def test_merge_that_bends_joins_maps_that_fit_only_locally(service: Any, model_id: str) -> None:
+def test_merge_that_bends_joins_maps_that_fit_only_locally(
+    service: Any, model_id: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    localized: list[int] = []
+    for name in ("between_maps", "bend"):
+        module = import_module(f"placecell.pose_graph.{name}")
+
+        def counted(*args: Any, find: Any = module.find_loops) -> Any:
+            localized.append(len(args[4]))
+            return find(*args)
+
+        monkeypatch.setattr(module, "find_loops", counted)
     true = put_drifting(service, model_id, "ann", 1)
     put_drifting(service, model_id, "bob", 2)
     rigid = merge(service, "both", ["ann", "bob"], deduplicate=False)
@@ -65,6 +77,9 @@ def test_merge_that_bends_joins_maps_that_fit_only_locally(service: Any, model_i
     assert told.status_code == 201, told.text
     (pair,) = told.json()["alignments"]
     assert pair["reason"] is None
+    # The loops between the maps are those of the optimization of the merged map.
+    assert localized[0] > 60
+    assert sum(localized[1:]) < 0.1 * localized[0]
     merged = content(service, "both")
     assert error(merged, true) < 0.5
     # The frame is still the first map's, apart from its drift.
