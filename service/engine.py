@@ -164,7 +164,7 @@ class Engine:
             self.sync = MapSync(store)
             self.partial_uploads = PartialUploads(settings.data_dir, limits)
             self.sessions = Sessions(limits.sessions)
-            self.loops = LoopMemory()
+            self.loops = LoopMemory(cache.folder)
             self.robots = Robots(limits.robots, limits.robot_seconds)
             self.events = EventRing(limits.events, limits.event_clients)
             watch = StoreWatch(self.events, self.maps.trouble, self.maps.damaged)

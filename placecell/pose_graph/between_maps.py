@@ -42,6 +42,7 @@ from placecell.pose_graph.parameters import PoseGraphParameters
 LEVER = 10.0
 """Distance from a capture to a second point ahead of it, which represents its heading, meters."""
 
+
 @dataclass(frozen=True, slots=True, eq=False)
 class BentMaps:
     """Maps that were bent by the loops between them and within them.

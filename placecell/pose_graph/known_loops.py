@@ -1,9 +1,11 @@
 """Loops of an earlier optimization: a map that grew is searched only where it grew."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from placecell.core.types import Int64
 from placecell.pose_graph.frames import NO_TRACK, GraphFrames
@@ -38,6 +40,53 @@ class KnownLoops:
             frozenset(keys[capture] for capture in localized.tolist() if capture in keys),
             tuple((one, other, each) for one, other, each in named if one and other),
         )
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Return all of it as arrays, to store it."""
+        localized = np.array(sorted(self.localized), dtype=np.float64).reshape(-1, 2)
+        ends = np.array([each[:2] for each in self.loops], dtype=np.float64).reshape(-1, 2, 2)
+        loops = [each for _, _, each in self.loops]
+        return {
+            "localized_tracks": localized[:, 0].astype(np.int64),
+            "localized_times": localized[:, 1],
+            "tracks": ends[:, :, 0].astype(np.int64),
+            "times": ends[:, :, 1],
+            "positions": np.array([each.position for each in loops]).reshape(-1, 3),
+            "yaws": np.array([each.yaw for each in loops], dtype=np.float64),
+            "covariances": np.array([each.covariance for each in loops]).reshape(-1, 4, 4),
+            "probabilities": np.array([each.probability for each in loops], dtype=np.float64),
+            "inliers": np.array([each.inliers for each in loops], dtype=np.int64),
+        }
+
+    @classmethod
+    def of_arrays(cls, arrays: Mapping[str, NDArray[Any]]) -> Self:
+        """Return what `arrays` returned.
+
+        Raises:
+            KeyError: An array is missing.
+            ValueError: The arrays do not fit each other.
+        """
+        tracks, times = arrays["tracks"], arrays["times"]
+        names = ("positions", "yaws", "covariances", "probabilities", "inliers")
+        columns = [arrays[name] for name in names]
+        shapes = [(len(tracks), *shape) for shape in ((3,), (), (4, 4), (), ())]
+        if tracks.shape != (len(tracks), 2) or times.shape != tracks.shape:
+            raise ValueError("a loop has two captures")
+        if [each.shape for each in columns] != shapes:
+            raise ValueError("the columns of the loops have other lengths")
+        loops = []
+        for pair, moments, position, yaw, covariance, probability, inliers in zip(
+            tracks.tolist(), times.tolist(), *columns, strict=True
+        ):
+            one, other = zip(pair, moments, strict=True)
+            found = FoundLoop(
+                -1, -1, position, float(yaw), covariance, float(probability), int(inliers)
+            )
+            loops.append((one, other, found))
+        localized = zip(
+            arrays["localized_tracks"].tolist(), arrays["localized_times"].tolist(), strict=True
+        )
+        return cls(frozenset(localized), tuple(loops))
 
     def in_map(
         self, frames: GraphFrames, chosen: Int64, parameters: PoseGraphParameters

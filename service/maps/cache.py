@@ -22,10 +22,14 @@ logger = logging.getLogger("placecell")
 
 
 class MapCache:
-    """Cache files of one data directory."""
+    """Cache files of one data directory.
+
+    Attributes:
+        folder: the folder, which may not exist yet. Others may keep files `UID.*` in it.
+    """
 
     def __init__(self, data_dir: Path) -> None:
-        self._folder = data_dir / "cache"
+        self.folder = data_dir / "cache"
 
     def load(self, history: MapHistory) -> tuple[CompactMap, int] | None:
         """Return the cached version of a map and its sequence; None if no valid one is cached."""
@@ -55,7 +59,7 @@ class MapCache:
             head: head of the map at that version.
             content: segments of that version.
         """
-        self._folder.mkdir(exist_ok=True)
+        self.folder.mkdir(exist_ok=True)
         line = json.dumps({"name": head.name, "sequence": head.sequence, "mark": head.mark})
         path = self._path(head.uid)
         unfinished = path.with_suffix(_UNFINISHED)
@@ -65,13 +69,13 @@ class MapCache:
             written.flush()
             os.fsync(written.fileno())
         unfinished.replace(path)
-        sync_folder(self._folder)
+        sync_folder(self.folder)
 
     def keep_only(self, uids: Collection[str]) -> None:
         """Remove the files of all other maps, and unfinished files."""
-        for path in self._folder.glob("*"):
-            if path.suffix == _UNFINISHED or (path.suffix == _SUFFIX and path.stem not in uids):
+        for path in self.folder.glob("*"):
+            if path.suffix == _UNFINISHED or path.stem not in uids:
                 path.unlink(missing_ok=True)
 
     def _path(self, uid: str) -> Path:
-        return self._folder / f"{uid}{_SUFFIX}"
+        return self.folder / f"{uid}{_SUFFIX}"

@@ -202,10 +202,11 @@ class Optimizer:
         self.writer.conditions.check(before.tag)
         model = self.writer.models.named(before.model_id)
         content = before.layers.content()
-        known = self.memory.get(name, model.id)
+        uid, finder = before.head.uid, f"{model.id} {self.parameters!r}"
+        known = self.memory.get(uid, finder)
         bent, after = bend_content(content, model, self.parameters, known)
         if bent.known is not None:
-            self.memory.put(name, model.id, bent.known)
+            self.memory.put(uid, finder, bent.known)
         robots = robots_of_captures(content)
         sequence = before.head.sequence
         if self.dry_run or after is None:

@@ -56,9 +56,7 @@ def plan_by_loops(
     return replace(again, poses=poses, loops=loops) if poses.keys() > plan.poses.keys() else plan
 
 
-def bent_sides(
-    sides: Sequence[MapSide], model: Model
-) -> tuple[list[MapSide], KnownLoops | None]:
+def bent_sides(sides: Sequence[MapSide], model: Model) -> tuple[list[MapSide], KnownLoops | None]:
     """Move the captures of maps by the loops between them, each map in its own frame.
 
     Returns:
