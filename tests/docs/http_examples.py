@@ -13,7 +13,7 @@ from placecell_client import Client, CompactMap, Delta, encode, encode_delta
 from placecell_client.maps.edit import take
 
 from placecell.core.geodesy import GeoAnchor, to_geodetic
-from tests.service.clouds.scan_files import files_of, yard_scan
+from tests.service.clouds.scan_files import scan_file
 
 PAGE = Path(__file__).parents[2] / "docs" / "reference" / "http-api.md"
 LOCAL = "http://127.0.0.1:8000"
@@ -65,7 +65,7 @@ def prepare(
     data = encode(yard)
     (folder / "yard.map").write_bytes(data)
     (folder / "newer.map").write_bytes(encode(newer))
-    (folder / "scan.pcd").write_bytes(files_of(yard_scan())["pcd"][2])
+    (folder / "scan.pcd").write_bytes(scan_file("pcd")[2])
     (folder / "edit.delta").write_bytes(encode_delta(edit))
     (folder / "part-1").write_bytes(data[:PART_BYTES])
     (folder / "part-2").write_bytes(data[PART_BYTES:])

@@ -9,10 +9,8 @@ import pytest
 from placecell_client import Client, ServiceError, encode
 
 from placecell.descriptors.manifest import Manifest
-from tests.service.clouds.scan_files import PILLARS, files_of, yard_scan
+from tests.service.clouds.scan_files import PILLARS, scan_file, yard_scan
 from tests.service.service_builders import edit_of, map_of, random_codes
-
-FILE = files_of(yard_scan())["pcd"][2]
 
 
 @pytest.fixture
@@ -30,7 +28,7 @@ def test_scan_is_segmented_localized_and_stored(
     connected: Callable[..., Client], tmp_path: Path, encoding: str
 ) -> None:
     file = tmp_path / "scan.pcd"
-    file.write_bytes(FILE)
+    file.write_bytes(scan_file("pcd")[2])
     with connected(encoding=encoding) as client:
         scan = client.scan_file(file)
         assert (scan.format, scan.points, scan.problems) == ("PCD", len(yard_scan()), ())

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from tests.placecell.sources.clouds.mutations import mutate
-from tests.service.clouds.scan_files import PILLARS, files_of, yard_scan
+from tests.service.clouds.scan_files import KINDS, PILLARS, scan_file, yard_scan
 from tests.service.service_builders import MSGPACK, assert_problem
 
-SCAN = yard_scan()
-FILES = files_of(SCAN)
-SMALL = files_of(yard_scan(step=0.8))
+SMALL = 0.8
+"""Distance between the points of a small scan, meters."""
+
 MUTATIONS = 25
 """Damaged files of each format."""
 
@@ -23,11 +23,11 @@ def send(service: Any, content: bytes, name: str = "scan", **headers: str) -> An
 
 
 def test_segments_of_a_file_can_be_matched_as_they_are(service: Any) -> None:
-    answer = send(service, FILES["pcd"][2], "scan.pcd")
+    answer = send(service, scan_file("pcd")[2], "scan.pcd")
     assert answer.status_code == 200, answer.text
     content = answer.json()
     assert content["format"] == "PCD"
-    assert content["points"] == len(SCAN)
+    assert content["points"] == len(yard_scan())
     assert content["dropped_points"] == 0
     assert content["problems"] == []
     assert content["sensor_height"] == pytest.approx(1.8, abs=0.05)
@@ -54,8 +54,8 @@ def test_segments_of_a_file_can_be_matched_as_they_are(service: Any) -> None:
 
 
 def test_msgpack_holds_the_same_scan_as_blobs(service: Any) -> None:
-    expected = send(service, FILES["laz"][2], "scan.laz").json()
-    answer = send(service, FILES["laz"][2], "scan.laz", Accept=MSGPACK)
+    expected = send(service, scan_file("laz")[2], "scan.laz").json()
+    answer = send(service, scan_file("laz")[2], "scan.laz", Accept=MSGPACK)
     assert answer.headers["content-type"] == MSGPACK
     content = msgpack.unpackb(answer.content)
     assert content.keys() == expected.keys()
@@ -68,9 +68,9 @@ def test_msgpack_holds_the_same_scan_as_blobs(service: Any) -> None:
     assert np.frombuffer(content["cloud"]["labels"], "<i4").tolist() == expected["cloud"]["labels"]
 
 
-@pytest.mark.parametrize("kind", list(FILES))
+@pytest.mark.parametrize("kind", list(KINDS))
 def test_every_format_gives_the_same_segments(service: Any, kind: str) -> None:
-    format_name, suffix, content = FILES[kind]
+    format_name, suffix, content = scan_file(kind)
     answer = send(service, content, f"scan{suffix}").json()
     assert (answer["format"], len(answer["segments"])) == (format_name, len(PILLARS))
 
@@ -78,7 +78,7 @@ def test_every_format_gives_the_same_segments(service: Any, kind: str) -> None:
 def test_compressed_body_is_read(service: Any) -> None:
     import gzip
 
-    packed = gzip.compress(FILES["csv"][2])
+    packed = gzip.compress(scan_file("csv")[2])
     answer = send(service, packed, "scan.csv", **{"Content-Encoding": "gzip"})
     assert answer.status_code == 200
     assert len(answer.json()["segments"]) == len(PILLARS)
@@ -88,9 +88,9 @@ def test_unusable_files_are_explained(start: Any) -> None:
     with start(limits={"scan_points": 1000, "scan_bytes": 2_000_000}) as service:
         assert_problem(send(service, b""), 422, "invalid-cloud-file", "scan: is empty")
         assert_problem(send(service, bytes(5000)), 415, "unsupported-cloud-file", "PCD, PLY")
-        cut = FILES["pcd"][2][:5000]
+        cut = scan_file("pcd")[2][:5000]
         assert_problem(send(service, cut, "my.pcd"), 413, "too-many-points", "my.pcd: has")
-        small = SMALL["pcd"][2]
+        small = scan_file("pcd", SMALL)[2]
         answer = send(service, small[:-7], "my.pcd")
         assert_problem(answer, 413, "too-many-points")
         assert_problem(send(service, bytes(2_000_001)), 413, "body-too-large", "2000000")
@@ -103,7 +103,7 @@ def test_unusable_files_are_explained(start: Any) -> None:
 
 def test_too_much_work_is_refused_before_it_is_done(start: Any) -> None:
     with start(limits={"cost_seconds": 1e-3}) as service:
-        answer = send(service, FILES["pcd"][2])
+        answer = send(service, scan_file("pcd")[2])
         assert_problem(answer, 413, "too-much-work", "most of it for scan")
 
 
@@ -118,9 +118,9 @@ def test_problem_shows_no_path_of_the_service(start: Any, tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", list(SMALL))
+@pytest.mark.parametrize("kind", list(KINDS))
 def test_damaged_file_is_segmented_or_refused(service: Any, kind: str) -> None:
-    _, suffix, content = SMALL[kind]
+    _, suffix, content = scan_file(kind, SMALL)
     random = np.random.default_rng(list(kind.encode()))
     for number in range(MUTATIONS):
         damaged = mutate(content, random)

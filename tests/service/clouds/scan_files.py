@@ -1,11 +1,13 @@
 """Scans of a made-up yard, and files of them in each format."""
 
+from collections.abc import Callable
+from functools import cache
 from io import BytesIO, StringIO
 from typing import Any
 
 import numpy as np
 
-from placecell.core.types import Float32, Float64
+from placecell.core.types import Float32
 from tests.placecell.sources.clouds.writers import las, pcd, ply
 
 HEIGHT = 1.8
@@ -57,22 +59,40 @@ FIELDS = [("x", "F", 4, 1), ("y", "F", 4, 1), ("z", "F", 4, 1), ("ring", "U", 2,
 PROPERTIES = ("float x", "float y", "float z", "uchar ring")
 
 
-def files_of(points: Float32) -> dict[str, tuple[str, str, bytes]]:
-    """Return files of a scan: format, ending and content of each."""
-    wide: Float64 = points.astype(np.float64)
-    rows = [[*row, index % 16] for index, row in enumerate(points.tolist())]
-    with_column = np.insert(points, 3, np.arange(len(points)) % 7, axis=1).astype("<f4")
-    return {
-        "pcd": ("PCD", ".pcd", pcd(FIELDS, rows, "binary")),
-        "pcd compressed": ("PCD", ".pcd", pcd(FIELDS, rows, "binary_compressed")),
-        "pcd ascii": ("PCD", ".pcd", pcd(FIELDS, rows, "ascii")),
-        "ply": ("PLY", ".ply", ply("binary_little_endian", PROPERTIES, rows)),
-        "ply ascii": ("PLY", ".ply", ply("ascii", PROPERTIES, rows)),
-        "las": ("LAS", ".las", las(wide)),
-        "laz": ("LAS", ".laz", las(wide, True)),
-        "bin": ("binary without header", ".bin", with_column.tobytes()),
-        "npy": ("NumPy array", ".npy", _saved(np.save, points)),
-        "npz": ("NumPy archive", ".npz", _saved(np.savez_compressed, points=points)),
-        "csv": ("text", ".csv", _text(points, ",", "x,y,z")),
-        "xyz": ("text", ".xyz", _text(points, " ")),
-    }
+def _rows(points: Float32) -> list[list[float]]:
+    return [[*row, index % 16] for index, row in enumerate(points.tolist())]
+
+
+def _with_column(points: Float32) -> Float32:
+    return np.insert(points, 3, np.arange(len(points)) % 7, axis=1).astype("<f4")
+
+
+KINDS: dict[str, tuple[str, str, Callable[[Float32], bytes]]] = {
+    "pcd": ("PCD", ".pcd", lambda points: pcd(FIELDS, _rows(points), "binary")),
+    "pcd compressed": (
+        "PCD",
+        ".pcd",
+        lambda points: pcd(FIELDS, _rows(points), "binary_compressed"),
+    ),
+    "pcd ascii": ("PCD", ".pcd", lambda points: pcd(FIELDS, _rows(points), "ascii")),
+    "ply": ("PLY", ".ply", lambda points: ply("binary_little_endian", PROPERTIES, _rows(points))),
+    "ply ascii": ("PLY", ".ply", lambda points: ply("ascii", PROPERTIES, _rows(points))),
+    "las": ("LAS", ".las", lambda points: las(points.astype(np.float64))),
+    "laz": ("LAS", ".laz", lambda points: las(points.astype(np.float64), True)),
+    "bin": ("binary without header", ".bin", lambda points: _with_column(points).tobytes()),
+    "npy": ("NumPy array", ".npy", lambda points: _saved(np.save, points)),
+    "npz": ("NumPy archive", ".npz", lambda points: _saved(np.savez_compressed, points=points)),
+    "csv": ("text", ".csv", lambda points: _text(points, ",", "x,y,z")),
+    "xyz": ("text", ".xyz", lambda points: _text(points, " ")),
+}
+"""Format, ending and writer of each kind of file."""
+
+
+@cache
+def scan_file(kind: str, step: float = 0.2) -> tuple[str, str, bytes]:
+    """Return a file of the yard's scan: format, ending and content.
+
+    Call it in a test: each worker collects all modules, and the files take a second to write.
+    """
+    name, suffix, write = KINDS[kind]
+    return name, suffix, write(yard_scan(step=step))

@@ -14,10 +14,10 @@ from service.clouds.uploaded_cloud import read_uploaded_cloud
 from service.core.problems import Problem
 from tests.placecell.sources.clouds.writers import las, pcd, pcd_header, ply
 from tests.placecell.sources.mutations import bounded
-from tests.service.clouds.scan_files import FIELDS, files_of, yard_scan
+from tests.service.clouds.scan_files import FIELDS, KINDS, scan_file, yard_scan
 
-SCAN = yard_scan(step=0.4)
-FILES = files_of(SCAN)
+STEP = 0.4
+SCAN = yard_scan(step=STEP)
 MOST = 100_000
 MEMORY = 96 << 20
 """Memory that a refused file may take, bytes; the files claim gigabytes."""
@@ -29,9 +29,9 @@ def problem_of(content: bytes, name: str, most: int = MOST) -> Problem:
     return raised.value
 
 
-@pytest.mark.parametrize("kind", list(FILES))
+@pytest.mark.parametrize("kind", list(KINDS))
 def test_file_of_each_format_is_read(kind: str) -> None:
-    format_name, suffix, content = FILES[kind]
+    format_name, suffix, content = scan_file(kind, STEP)
     cloud = read_uploaded_cloud(content, f"scan{suffix}", MOST)
     assert cloud.format == format_name
     assert cloud.scan.read == len(SCAN)
@@ -42,13 +42,13 @@ def test_file_of_each_format_is_read(kind: str) -> None:
 @pytest.mark.parametrize("name", ["", "..", "scan", "scan.dat2", "a/b/", "../../etc/passwd"])
 @pytest.mark.parametrize("kind", ["pcd", "ply", "laz", "npy", "npz", "xyz"])
 def test_content_tells_the_format_without_an_ending(kind: str, name: str) -> None:
-    format_name, _, content = FILES[kind]
+    format_name, _, content = scan_file(kind, STEP)
     assert read_uploaded_cloud(content, name, MOST).format == format_name
 
 
 def test_content_overrides_a_wrong_ending() -> None:
-    assert read_uploaded_cloud(FILES["ply"][2], "scan.pcd", MOST).format == "PLY"
-    assert read_uploaded_cloud(FILES["pcd"][2], "scan.csv", MOST).format == "PCD"
+    assert read_uploaded_cloud(scan_file("ply", STEP)[2], "scan.pcd", MOST).format == "PLY"
+    assert read_uploaded_cloud(scan_file("pcd", STEP)[2], "scan.csv", MOST).format == "PCD"
 
 
 def test_other_files_are_refused_with_the_formats() -> None:
@@ -145,9 +145,9 @@ def test_file_that_becomes_large_is_refused_before_it_is_decoded(name: str) -> N
     assert time.perf_counter() - started < 5
 
 
-@pytest.mark.parametrize("kind", list(FILES))
+@pytest.mark.parametrize("kind", list(KINDS))
 def test_file_of_too_many_points_is_refused(kind: str) -> None:
-    _, suffix, content = FILES[kind]
+    _, suffix, content = scan_file(kind, STEP)
     problem = problem_of(content, f"scan{suffix}", most=1000)
     assert (problem.status, problem.kind) == (413, "too-many-points")
     assert "1,000" in problem.detail
@@ -155,7 +155,7 @@ def test_file_of_too_many_points_is_refused(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["pcd ascii", "ply ascii", "csv", "xyz"])
 def test_reading_text_stops_when_its_request_is_late(kind: str) -> None:
-    _, suffix, content = FILES[kind]
+    _, suffix, content = scan_file(kind, STEP)
     token = CancelToken()
     token.cancel()
     with cancelled_by(token), pytest.raises(Cancelled):

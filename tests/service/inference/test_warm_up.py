@@ -10,7 +10,7 @@ from placecell.descriptors import reranking
 from placecell.localization import clique, consistency, correspondences, refinement, voting
 from placecell.segmentation import ground, region_growing
 from service.api.body import json_arrays
-from tests.service.clouds.scan_files import files_of, yard_scan
+from tests.service.clouds.scan_files import scan_file
 from tests.service.service_builders import cloud, map_of, random_codes, request_of
 
 
@@ -45,7 +45,7 @@ def test_no_loop_is_compiled_in_a_request(start: Callable[..., Any], manifest: A
         clouds = [cloud(seed) + 10 * seed for seed in range(8)]
         assert client.post("/localize", json=request_of(clouds)).status_code == 200
         assert client.post("/match", json=request_of(clouds)).status_code == 200
-        assert client.post("/scans", content=files_of(yard_scan())["ply"][2]).status_code == 200
+        assert client.post("/scans", content=scan_file("ply")[2]).status_code == 200
         assert {each: len(each.nopython_signatures) for each in loops} == before
 
 

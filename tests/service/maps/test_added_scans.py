@@ -8,7 +8,7 @@ import pytest
 from placecell_client import decode, encode
 
 from placecell.descriptors.manifest import Manifest
-from tests.service.clouds.scan_files import PILLARS, files_of, yard_scan
+from tests.service.clouds.scan_files import PILLARS, scan_file
 from tests.service.service_builders import (
     assert_problem,
     map_of,
@@ -16,12 +16,18 @@ from tests.service.service_builders import (
     write_eigenvalue_model,
 )
 
-FILE = files_of(yard_scan())["pcd"][2]
+
+def file() -> bytes:
+    """Return the scan that the tests add."""
+    return scan_file("pcd")[2]
 
 
-def add(service: Any, content: bytes = FILE, **query: Any) -> Any:
+def add(service: Any, content: bytes | None = None, **query: Any) -> Any:
+    """Add a scan of robot bob, or other content, to map yard."""
     query = {"robot": "bob", "name": "scan.pcd", "time": 1_700_000_000.0} | query
-    return service.post("/maps/yard/scans", params=query, content=content)
+    return service.post(
+        "/maps/yard/scans", params=query, content=file() if content is None else content
+    )
 
 
 def test_scan_makes_a_new_map_at_the_pose_of_the_sensor(service: Any) -> None:
@@ -51,7 +57,7 @@ def test_scan_makes_a_new_map_at_the_pose_of_the_sensor(service: Any) -> None:
 
 
 def test_codes_are_those_of_describe(service: Any) -> None:
-    segmented = service.post("/scans", params={"name": "scan.pcd"}, content=FILE)
+    segmented = service.post("/scans", params={"name": "scan.pcd"}, content=file())
     assert segmented.status_code == 200, segmented.text
     found = segmented.json()["segments"]
     segments = [{"points": each["points"], "sensor": [0, 0, 0]} for each in found]
@@ -86,7 +92,7 @@ def test_unusable_scans_leave_the_map_as_it_is(service: Any, manifest: Manifest)
     service.put("/maps/yard", content=encode(map_of(random_codes(9), manifest.model_id)))
     tag = service.get("/maps/yard").headers["etag"]
     assert_problem(add(service, content=b""), 422, "invalid-cloud-file")
-    assert_problem(add(service, content=FILE[:3000]), 422, "invalid-cloud-file", "scan.pcd")
+    assert_problem(add(service, content=file()[:3000]), 422, "invalid-cloud-file", "scan.pcd")
     answer = add(service, content=b"5 0 0\n" * 500, name="scan.xyz")
     assert_problem(answer, 422, "no-usable-segment", "No segment has 100 points")
     for query in (
@@ -103,23 +109,23 @@ def test_other_version_and_missing_right_are_refused(
 ) -> None:
     from hashlib import sha256
 
-    file = tmp_path / "keys.toml"
+    keys = tmp_path / "keys.toml"
     lines = {
         "reader": "", "ann": 'write = true\nmaps = ["yard"]\nrobot = "ann"', "owner": "write = true"
     }  # fmt: skip
-    file.write_text(
+    keys.write_text(
         "".join(
             f"[{name}]\nsha256 = '{sha256(name.encode()).hexdigest()}'\n{scope}\n"
             for name, scope in lines.items()
         )
     )
-    with start(keys_file=file) as service:
+    with start(keys_file=keys) as service:
 
         def asked(key: str, name: str = "yard", **query: Any) -> Any:
             return service.post(
                 f"/maps/{name}/scans",
                 params={"create": True} | query,
-                content=FILE,
+                content=file(),
                 headers={"Authorization": f"Bearer {key}"},
             )
 
@@ -130,7 +136,7 @@ def test_other_version_and_missing_right_are_refused(
         assert_problem(asked("owner"), 422, "invalid-request", "robot")
         stale = service.post(
             "/maps/yard/scans?robot=bob",
-            content=FILE,
+            content=file(),
             headers={"Authorization": "Bearer owner", "If-Match": '"00-1"'},
         )
         assert_problem(stale, 412, "precondition-failed")

@@ -14,7 +14,7 @@ from placecell_client.maps.canonical import canonical
 from placecell_client.maps.edit import apply
 
 from placecell.descriptors.manifest import Manifest
-from tests.service.clouds.scan_files import files_of, yard_scan
+from tests.service.clouds.scan_files import scan_file
 from tests.service.core.test_auth import made
 from tests.service.service_builders import assert_problem, cloud, map_of, random_codes, request_of
 
@@ -118,8 +118,8 @@ def test_A19_answers_name_no_hidden_maps_or_keys(hall: Any, manifest: Manifest) 
             }
         ],
         "/maps/{map}/anchors/{anchor}": [{"json": {"position": [1, 2, 3]}}],
-        "/scans": [{"content": files_of(yard_scan())["pcd"][2]}],
-        "/maps/{map}/scans": [{"content": files_of(yard_scan())["pcd"][2]}],
+        "/scans": [{"content": scan_file("pcd")[2]}],
+        "/maps/{map}/scans": [{"content": scan_file("pcd")[2]}],
         "/maps/{map}/uploads/{digest}": [{"content": b"part"}],
         "/maps/{map}": [
             {"content": encode(map_of(random_codes(71), manifest.model_id, 300, "ann"))},
