@@ -15,7 +15,6 @@ from cli.maps.connection import KEY_VARIABLE
 from cli.sources import TOWN_SCANS, clear_errors, parse_town, show
 from cli.tables import JsonFlag, new_table, print_json, print_tables
 from placecell.sources.scan_options import current_scan_options
-from placecell.trajectories.extrinsic import parse_extrinsic
 
 if TYPE_CHECKING:
     from robot.agent import RobotAgent
@@ -236,6 +235,7 @@ def open_live(source: str) -> "ZenohAddress":
 
 def listen(agent: "RobotAgent", address: "ZenohAddress") -> None:
     """Give the agent what a robot publishes, until SIGINT or SIGTERM."""
+    from placecell.trajectories.extrinsic import parse_extrinsic
     from robot.node.settings import NodeSettings
     from robot.zenoh.node import run_on_zenoh
 
