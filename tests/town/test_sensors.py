@@ -1,7 +1,10 @@
 """Sensors of the town: beams by their data sheets, the rosette, mounting, rain and dropout."""
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +13,7 @@ from placecell.core.types import Float32, Float64
 from town import HDL_64E, SENSORS, Lidar, Scene, read_origin, sensor, two_robots
 from town.geometry.shapes import box
 from town.places import PLACES, build_place
+from town.places.indoor.floor import DIFFERING
 from town.sensing.sensors import SOLID_STATE
 
 
@@ -157,6 +161,15 @@ def test_low_sensor_keeps_clear_of_the_ground(place: str) -> None:
         assert ranges.min() > 0.25
 
 
+@pytest.fixture(scope="module")
+def build() -> Iterator[Callable[..., tuple[Any, Any]]]:
+    """Build each place once, also in `two_robots`: a campus takes seconds."""
+    with pytest.MonkeyPatch.context() as patch:
+        once = cache(build_place)
+        patch.setattr("town.drives.robots.build_place", once)
+        yield once
+
+
 @pytest.mark.parametrize(
     ("place", "mount", "expected"),
     [
@@ -166,13 +179,17 @@ def test_low_sensor_keeps_clear_of_the_ground(place: str) -> None:
     ],
 )
 def test_mount_is_the_lower_of_sensor_and_place_unless_given(
-    tmp_path: Path, place: str, mount: float | None, expected: dict[str, float]
+    tmp_path: Path,
+    build: Callable[..., tuple[Any, Any]],
+    place: str,
+    mount: float | None,
+    expected: dict[str, float],
 ) -> None:
     for name, height in expected.items():
         folder = tmp_path / name
         lidar = sensor(name, columns=16)
         drive, _ = two_robots(folder, scans=1, place=place, lidar=lidar, mount=mount)
-        town, _ = build_place(place, 7, 1.08 * PLACES[place].spacing + 4.0)
+        town, _ = build(place, 7, 1.08 * PLACES[place].spacing + 4.0, 0, DIFFERING)
         origin = read_origin(drive)[:3, 3]
         above = origin[2] - town.terrain.height(origin[:2])
         assert above == pytest.approx(height, abs=0.02)
