@@ -23,9 +23,6 @@ from tests.tracing import settrace
 
 __all__ = ["postgres_database", "postgres_server"]  # fixtures
 
-# Nearly all objects that a worker makes until it runs tests live until its end.
-gc.disable()
-
 SERVICE = Path(__file__).resolve().parent / "service"
 
 settings.register_profile("fast", settings.get_profile("ci"), max_examples=20)
@@ -103,14 +100,19 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: item.path not in slow)
 
 
-def pytest_collection_finish() -> None:
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
     """Keep modules and items out of garbage collections, as `placecell serve` does.
 
     They live until the end, so a collection would visit all of them in vain.
     """
-    gc.collect()
-    gc.freeze()
-    gc.enable()
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.fixture(scope="session", autouse=True)
