@@ -20,7 +20,7 @@ from robot.localization.scan_jump import ScanAgreement, object_columns
 from robot.mapping.keyframes import Keyframes
 from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
 
-VERSION = 4
+VERSION = 5
 """Version of the checkpoints."""
 STANDING = 0.1
 """Steps below this length are noise of the odometry of a standing robot, meters."""
@@ -167,8 +167,8 @@ class Perception:
             return PerceptionStep("doubt")
         if not fit.fits and self._doubted is not None:
             jump = "carried away"
-            self._begin_anew()
             assert self._doubted_points is not None
+            self._begin_anew(self._doubted)
             self._take(self._doubted_points, self._doubted)
             fit = self.agreement.examine(columns)
         elif self._doubted is not None:
@@ -188,19 +188,22 @@ class Perception:
         live = every.take(np.flatnonzero(~moves))
         self.segmentation.take_final_views()  # Views of all sides are stored, not only the best.
         found = describe(clouds_of(live), live.segments.sensors)
+        keyframe = Keyframe(live, found.codes, found.centroids, found.classes)
+        if not self.keyframe_rule.is_complete:
+            return keyframe, None  # The first scans show too little of a segment to store it.
         seen = SeenSegments.of(found, live, self.model_id, self.preprocessing)
         mapped = seen.wanted(ClassFilter.of(None, self.unmapped))
         edit = self.map_out.add(mapped, capture, self.meters, every.ids[moves])
-        return Keyframe(live, found.codes, found.centroids, found.classes), edit
+        return keyframe, edit
 
     def _take(self, points: Float32, capture: Capture) -> None:
         self.segmentation.add(points, capture.odom_pose)
 
-    def _begin_anew(self) -> None:
+    def _begin_anew(self, first: Capture) -> None:
         self.part += 1
         self.segmentation.reset()
         self.agreement.reset()
-        self.keyframe_rule.reset()
+        self.keyframe_rule.reset(first.odom_pose)
         self.map_out.begin_part()
 
     def _drive(self, odom_pose: Float64) -> None:

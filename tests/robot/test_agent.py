@@ -100,7 +100,6 @@ def test_one_contradicting_fix_makes_the_pose_unsure_but_does_not_move_it(street
     agent = new_agent(settings(), link)
     drive(agent, street, steps(0, 12))
     link.transform = at(500.0)
-    drive(agent, street, [12.0, 13.0, 14.0], first_time=1.2)
     while state_of(agent) == "tracking":
         place = agent.status.meters + 1.0
         drive(agent, street, [place], first_time=1.2 + place / 10)

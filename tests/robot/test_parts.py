@@ -65,8 +65,23 @@ def test_keyframes_follow_the_distance_not_the_noise() -> None:
     assert rule.add(at(2.1))
     rule.expect()
     assert rule.add(at(2.2))
-    rule.reset()
+    rule.reset(at(48.5))
     assert not rule.add(at(50))
+
+
+def test_fast_robot_makes_a_keyframe_before_its_local_map_is_complete() -> None:
+    rule = Keyframes(2.0, 5)
+    assert [rule.add(at(1.5 * place)) for place in range(6)] == [False, False, True] + [
+        False,
+        True,
+        False,
+    ]
+    rule.reset(at(100.0))
+    assert not rule.is_complete
+    assert rule.add(at(102.0))
+    assert not rule.is_complete
+    found = [(rule.add(at(x)), rule.is_complete) for x in (103.0, 104.0, 105.0)]
+    assert found == [(False, False), (True, False), (False, True)]
 
 
 def test_scans_of_one_drive_fit_and_those_of_another_place_do_not() -> None:
