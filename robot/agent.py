@@ -133,13 +133,22 @@ class RobotAgent:
         self._saved_at = -np.inf
         self._is_closed = False
 
-    def on_scan(self, points: Float32, time_s: float, odom_pose: Float64) -> None:
+    def on_scan(
+        self,
+        points: Float32,
+        time_s: float,
+        odom_pose: Float64,
+        odom_covariance: Float64 | None = None,
+    ) -> None:
         """Process a scan.
 
         Args:
             points: float32 (n, 3), meters, in the sensor's frame, deskewed.
             time_s: time of the scan, seconds.
             odom_pose: pose of the sensor in the odometry frame (z up), float64 (4, 4).
+            odom_covariance: covariance of this pose since the odometry began, of x, y, z and the
+                rotations about the frame's axes, float64 (6, 6); None if it is not known. The map
+                states its growth from capture to capture.
         """
         self.messages.clear()
         if not np.isfinite(odom_pose).all() or not np.isfinite(time_s):
@@ -155,7 +164,7 @@ class RobotAgent:
         # Maps and filters need classes: a robot without either saves the time.
         classified = self.settings.upload or bool(self.settings.ignore)
         describe = partial(self._engine.describe, classified=classified)
-        step = self._perception.add(points, time_s, odom_pose, describe)
+        step = self._perception.add(points, time_s, odom_pose, describe, odom_covariance)
         self._handle_jump(step)
         if step.keyframe is not None:
             self._handle_keyframe(step.keyframe, step.edit)

@@ -6,6 +6,7 @@ from placecell.core.types import Float64
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.refinement import kernel
+from placecell.trajectories.covariance import cross, lever_arm
 
 
 def covariance_of(
@@ -66,9 +67,7 @@ def at_point(covariance: Float64, pose: Pose, point: Float64) -> Float64:
         Covariance of the transformed point, meters, and the rotation, in the same order.
     """
     columns = [0, 1, 2, 5] if len(covariance) == 4 else list(range(6))
-    moved = np.eye(6)
-    moved[:3, 3:] = -cross(pose.rotation @ point)
-    moved = moved[np.ix_(columns, columns)]
+    moved = lever_arm(pose.rotation @ point)[np.ix_(columns, columns)]
     return np.asarray(moved @ covariance @ moved.T)
 
 
@@ -78,11 +77,3 @@ def rotation_deviation(covariance: Float64) -> float:
     if not np.isfinite(block).all():
         return float("inf")
     return float(np.sqrt(np.linalg.eigvalsh(block)[-1]))
-
-
-def cross(vectors: Float64) -> Float64:
-    """Return the cross-product matrices (..., 3, 3) of vectors (..., 3)."""
-    x, y, z = np.moveaxis(vectors, -1, 0)
-    nothing = np.zeros_like(x)
-    rows = [[nothing, -z, y], [z, nothing, -x], [-y, x, nothing]]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

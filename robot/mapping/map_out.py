@@ -18,7 +18,7 @@ from placecell.core.segments import stored_extents
 from placecell.core.types import Float32, Float64, Int8, Int64, UInt8
 from placecell.segmentation.incremental import LiveSegments
 from robot.core.usable_segments import UsableSegments
-from robot.mapping.odometry_model import OdometryModel
+from robot.mapping.odometry_model import OdometryModel, stated_variances
 
 ODOMETRY = OdometryModel()
 
@@ -34,10 +34,13 @@ class Capture:
     Attributes:
         time: time of the scan, seconds.
         odom_pose: pose of the sensor in the odometry frame, float64 (4, 4).
+        covariance: covariance of this pose, of x, y, z and the rotations about the frame's axes,
+            float64 (6, 6); None if it is not known.
     """
 
     time: float
     odom_pose: Float64
+    covariance: Float64 | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -134,7 +137,7 @@ class EditMaker:
         self._robot = robot
         self._session = session
         self._odometry = odometry
-        self._last_pose: Float64 | None = None
+        self._last: Capture | None = None
         self._variances = np.zeros(3)
         self.part = 0
         self.sequence = 0
@@ -162,7 +165,7 @@ class EditMaker:
             meters: distance driven until then.
             moved: ids of segments that have moved, int64 (m,): their views leave the map.
         """
-        self._drive(capture.odom_pose)
+        self._drive(capture)
         left = [view for each in moved.tolist() for view in self._stored.pop(each, ())]
         before = self._viewed_at
         ids = seen.ids.tolist()
@@ -214,11 +217,19 @@ class EditMaker:
         self._next_id = 0
         self._viewed_at.clear()
         self._stored.clear()
-        self._last_pose = None
+        self._last = None
         self._variances = np.zeros(3)
 
-    def _drive(self, pose: Float64) -> None:
+    def _drive(self, capture: Capture) -> None:
         """Add the variances of the way since the last capture, also of one without an edit."""
-        if self._last_pose is not None:
-            self._variances = self._variances + self._odometry.variances(self._last_pose, pose)
-        self._last_pose = pose.copy()
+        before, self._last = self._last, capture
+        if before is None:
+            return
+        step = self._odometry.variances(before.odom_pose, capture.odom_pose)
+        if before.covariance is not None and capture.covariance is not None:
+            step = stated_variances(
+                (before.odom_pose, before.covariance),
+                (capture.odom_pose, capture.covariance),
+                step,
+            )
+        self._variances = self._variances + step

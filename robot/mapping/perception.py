@@ -144,7 +144,12 @@ class Perception:
         self.scans += 1
 
     def add(
-        self, points: Float32, time: float, odom_pose: Float64, describe: Describe
+        self,
+        points: Float32,
+        time: float,
+        odom_pose: Float64,
+        describe: Describe,
+        odom_covariance: Float64 | None = None,
     ) -> PerceptionStep:
         """Process a scan.
 
@@ -153,6 +158,7 @@ class Perception:
             time: time of the scan, seconds.
             odom_pose: pose of the sensor in the odometry frame, float64 (4, 4).
             describe: describes the segments of a capture.
+            odom_covariance: covariance of the pose, float64 (6, 6); None if it is not known.
         """
         self.scans += 1
         self._drive(odom_pose)
@@ -160,7 +166,7 @@ class Perception:
         if self._is_after_gap(odom_pose):
             self.agreement.reset()
         fit = self.agreement.examine(columns)
-        capture = Capture(time, odom_pose.copy())
+        capture = Capture(time, odom_pose.copy(), odom_covariance)
         jump: Jump | None = None
         if not fit.fits and self._doubted is None:
             self._doubted, self._doubted_points = capture, points

@@ -23,12 +23,15 @@ class StampedTransform:
         parent: frame that the pose leads to.
         child: frame whose pose it is.
         pose: pose of the child in the parent, float64 (4, 4).
+        covariance: covariance of the pose, of x, y, z and the rotations about the parent's axes,
+            float64 (6, 6); None if it is not known.
     """
 
     stamp_ns: int
     parent: str
     child: str
     pose: Float64
+    covariance: Float64 | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

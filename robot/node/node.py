@@ -17,6 +17,7 @@ from placecell.odometry.deskew import deskew
 from placecell.sources.bags.pointcloud2 import PointCloud2, decode
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import silent
+from placecell.trajectories.covariance import lever_arm
 from robot.core.map_to_odom import MapToOdom
 from robot.core.settings import AgentSettings
 from robot.core.status import AgentStatus
@@ -37,7 +38,13 @@ class NodeAgent(Protocol):
     map_to_odom: MapToOdom | None
     messages: list[str]
 
-    def on_scan(self, points: Float32, time_s: float, odom_pose: Float64) -> None:
+    def on_scan(
+        self,
+        points: Float32,
+        time_s: float,
+        odom_pose: Float64,
+        odom_covariance: Float64 | None = None,
+    ) -> None:
         """Process a scan."""
 
     def drop_scan(self) -> None:
@@ -202,7 +209,11 @@ class RobotNode:
             if motion is not None and motion.covers(time_s + first, time_s + last):
                 points = deskew(points, scan.times, time_s, motion)
         self._problem = ""
-        self._agent.on_scan(points, time_s, np.asarray(posed.odom_pose @ mount))
+        covariance = posed.covariance
+        if covariance is not None:
+            arm = lever_arm(posed.odom_pose[:3, :3] @ mount[:3, 3])
+            covariance = np.asarray(arm @ covariance @ arm.T)
+        self._agent.on_scan(points, time_s, np.asarray(posed.odom_pose @ mount), covariance)
         for message in self._agent.messages:
             self._tell(message)
         correction = self._agent.map_to_odom

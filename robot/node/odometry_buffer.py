@@ -22,6 +22,7 @@ class OdometryBuffer:
     def __init__(self) -> None:
         self._stamps: deque[float] = deque()
         self._poses: deque[Float64] = deque()
+        self._covariances: deque[Float64 | None] = deque()
         self.last: StampedTransform | None = None
 
     def __len__(self) -> int:
@@ -39,14 +40,17 @@ class OdometryBuffer:
         if restarted:
             self._stamps.clear()
             self._poses.clear()
+            self._covariances.clear()
         if self.newest is not None and time <= self.newest:
             return False  # repeated, or late
         self.last = transform
         self._stamps.append(time)
         self._poses.append(transform.pose)
+        self._covariances.append(transform.covariance)
         while self._stamps[0] < time - KEPT_SECONDS:
             self._stamps.popleft()
             self._poses.popleft()
+            self._covariances.popleft()
         return restarted
 
     def is_before(self, time: float) -> bool:
@@ -72,6 +76,25 @@ class OdometryBuffer:
         poses = np.stack([self._poses[after - 1], self._poses[after]])
         pose: Float64 = interpolate(np.array([time]), stamps, poses)[0]
         return pose
+
+    def covariance_at(self, time: float) -> Float64 | None:
+        """Return the covariance of the pose at a time, float64 (6, 6); None if it is not known.
+
+        An error grows little from one message to the next, so the covariance is linear between.
+        """
+        after = bisect_left(self._stamps, time)
+        near = range(max(0, after - 1), min(len(self._stamps), after + 1))
+        found = [self._covariances[index] for index in near]
+        if not found or any(each is None for each in found):
+            return None
+        stamps = [self._stamps[index] for index in near]
+        share = 0.0
+        if len(near) == 2:
+            share = (min(time, stamps[1]) - stamps[0]) / (stamps[1] - stamps[0])
+        first, last = found[0], found[-1]
+        assert first is not None
+        assert last is not None
+        return np.asarray((1 - share) * first + share * last)
 
     def motion(self, first: float, last: float, mount: Float64) -> SensorMotion | None:
         """Return the sensor's motion from a time to another; None without two poses.

@@ -23,10 +23,17 @@ class WaitingScan:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PairedScan:
-    """Scan with the pose of the robot's base in the odometry frame, float64 (4, 4)."""
+    """Scan with the pose of the robot's base in the odometry frame.
+
+    Attributes:
+        scan: the scan.
+        odom_pose: the pose, float64 (4, 4).
+        covariance: its covariance, float64 (6, 6); None if it is not known.
+    """
 
     scan: WaitingScan
     odom_pose: Float64
+    covariance: Float64 | None = None
 
 
 class ScanQueue:
@@ -78,7 +85,7 @@ class ScanQueue:
                 for _ in range(index + 1):
                     self._waiting.popleft()
                 self.late += index
-                return PairedScan(scan, pose)
+                return PairedScan(scan, pose, odometry.covariance_at(scan.time))
         before = len(self._waiting)
         self._waiting = deque(
             scan

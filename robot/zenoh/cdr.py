@@ -1,5 +1,6 @@
 """Messages as CDR: read by the decoders of bags, written by the type store of `rosbags`."""
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -51,7 +52,8 @@ def read_odometry(data: bytes, where: str) -> StampedTransform:
     Raises:
         DriveError: the message is damaged, or its pose is none.
     """
-    return stamped(next(odometry(Wire(data, "cdr", where))), where)
+    message = next(odometry(Wire(data, "cdr", where)))
+    return replace(stamped(message, where), covariance=message.covariance)
 
 
 def read_transforms(data: bytes, where: str) -> list[StampedTransform]:
@@ -157,8 +159,9 @@ def write_diagnostics(diagnostic: Diagnostic) -> bytes:
 
 
 def write_odometry(transform: StampedTransform) -> bytes:
-    """Write a nav_msgs/Odometry without covariances and without a twist."""
+    """Write a nav_msgs/Odometry without a twist; an unknown covariance is zeros."""
     zeros = np.zeros(36)
+    covariance = zeros if transform.covariance is None else transform.covariance.reshape(36)
     vector = new("geometry_msgs/msg/Vector3", 0.0, 0.0, 0.0)
     return write(
         ODOMETRY,
@@ -166,7 +169,7 @@ def write_odometry(transform: StampedTransform) -> bytes:
             ODOMETRY,
             header(transform.stamp_ns, transform.parent),
             transform.child,
-            new("geometry_msgs/msg/PoseWithCovariance", geometry_pose(transform.pose), zeros),
+            new("geometry_msgs/msg/PoseWithCovariance", geometry_pose(transform.pose), covariance),
             new(
                 "geometry_msgs/msg/TwistWithCovariance",
                 new("geometry_msgs/msg/Twist", vector, vector),

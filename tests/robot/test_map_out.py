@@ -8,7 +8,9 @@ from placecell_client.maps.edit import apply
 
 from placecell.core.segment_classes import ClassFilter
 from placecell.core.segments import Segments
+from placecell.core.types import Float64
 from placecell.segmentation.incremental import LiveSegments
+from placecell.trajectories.covariance import lever_arm
 from robot.core.usable_segments import UsableSegments
 from robot.mapping.map_out import Capture, EditMaker, MapEdit, SeenSegments
 from robot.mapping.odometry_model import OdometryModel
@@ -122,3 +124,43 @@ def test_variances_grow_with_distance_and_turn_and_begin_anew_with_a_part() -> N
     begun = stored(None, add(edits, 9.0, 3))
     assert begun.frame_odometry is not None
     np.testing.assert_allclose(begun.frame_odometry[:, 4:], 0.0)
+
+
+def variances(*covariances: Float64 | None) -> Float64:
+    """Return what the map states after captures that are 2 m apart, (n, 3)."""
+    edits, content = EditMaker("ann", "s", OdometryModel(0.1, 0.05, 0.01, 0.02)), None
+    for number, covariance in enumerate(covariances):
+        capture = Capture(float(number), at(2.0 * number), covariance)
+        content = stored(content, edits.add(seen(number), capture, 2.0 * number))
+    assert content is not None
+    assert content.frame_odometry is not None
+    return np.asarray(content.frame_odometry[:, 4:])
+
+
+BY_MODEL = [2 * 0.1**2, 2 * 0.05**2, 2 * 0.01**2]
+
+
+def test_map_states_the_growth_of_a_stated_covariance() -> None:
+    covariance = np.diag([0.01, 0.02, 0.03, 1e-4, 1e-4, 4e-4])
+    covariances = [covariance]
+    for _ in range(2):
+        # Errors of the heading move the next position sideways: no error of the next step.
+        arm = lever_arm(np.array([2.0, 0.0, 0.0]))
+        covariance = arm @ covariance @ arm.T + np.diag([0.004, 0.006, 0.002, 0.0, 0.0, 1e-5])
+        covariances.append(covariance)
+    found = variances(*covariances)
+    np.testing.assert_allclose(found[0], 0.0)
+    np.testing.assert_allclose(np.diff(found, axis=0), [[0.005, 0.002, 1e-5]] * 2, atol=1e-12)
+
+
+def test_model_is_used_where_the_covariance_is_unknown_or_constant() -> None:
+    known, later = np.diag([0.1, 0.1, 0.1, 0.1, 0.1, 0.1]), np.diag([0.9] * 6)
+    found = np.diff(variances(known, known, None, later), axis=0)
+    np.testing.assert_allclose(found, [BY_MODEL] * 3)
+
+
+def test_planar_odometry_gets_the_height_of_the_model() -> None:
+    first, last = np.diag([0.1, 0.1, 0, 0, 0, 1e-4]), np.diag([0.2, 0.2, 0, 0, 0, 2e-4])
+    (found,) = np.diff(variances(first, last), axis=0)
+    # y: 0.1 more, without 2 m times an error of the heading of 0.01 rad.
+    np.testing.assert_allclose(found, [0.1 - 0.0004 / 2, BY_MODEL[1], 1e-4])

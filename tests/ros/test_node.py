@@ -90,6 +90,7 @@ def ros_odometry(seconds: float, x: float) -> Any:
 
     message = Odometry(Header(ros_time(seconds), "odom"), "base_link")
     message.pose.pose.position.x = x
+    message.pose.covariance = np.diag([x, x, x, 0, 0, 0.1]).ravel().tolist()
     return message
 
 
@@ -118,6 +119,9 @@ def test_scan_becomes_a_pose_and_a_transform(ros: ModuleType, opened: Opened) ->
     assert transform.transform.rotation.w == 1
     status = node.publishers["/diagnostics"].messages[-1].status[0]
     assert (status.level, status.message) == (b"\0", "tracking")
+    (covariance,) = opened.agent.covariances
+    assert covariance is not None
+    assert np.diag(covariance).tolist() == [2, 2, 2, 0, 0, 0.1]
     assert opened.closed == 1
 
 

@@ -1,10 +1,11 @@
 """Messages with poses and transforms."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from placecell.core.types import Float64
 from placecell.sources.bags.wire import Wire
+from placecell.trajectories.covariance import stated_covariance
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -16,12 +17,15 @@ class StampedPose:
         parent: frame that the pose leads to.
         child: frame whose pose it is; "" if the message does not state it.
         values: x, y, z, and quaternion x, y, z, w: float64 (7,).
+        covariance: covariance of x, y, z and the rotations about the parent's axes, float64 (6, 6);
+            None if the message states none of use.
     """
 
     stamp_ns: int
     parent: str
     child: str
     values: Float64
+    covariance: Float64 | None = None
 
 
 def frame_name(text: str) -> str:
@@ -31,9 +35,8 @@ def frame_name(text: str) -> str:
 
 def odometry(wire: Wire) -> Iterator[StampedPose]:
     """Read a nav_msgs/Odometry."""
-    stamp, parent = wire.header()
-    child = frame_name(wire.string())
-    yield StampedPose(stamp, parent, child, wire.doubles(7))
+    found = next(transform_stamped(wire))
+    yield replace(found, covariance=stated_covariance(wire.doubles(36)))
 
 
 def pose_stamped(wire: Wire) -> Iterator[StampedPose]:
@@ -51,7 +54,9 @@ def path(wire: Wire) -> Iterator[StampedPose]:
 
 def transform_stamped(wire: Wire) -> Iterator[StampedPose]:
     """Read a geometry_msgs/TransformStamped."""
-    yield from odometry(wire)
+    stamp, parent = wire.header()
+    child = frame_name(wire.string())
+    yield StampedPose(stamp, parent, child, wire.doubles(7))
 
 
 def transforms(wire: Wire) -> Iterator[StampedPose]:

@@ -13,6 +13,7 @@ from tf2_msgs.msg import TFMessage
 from placecell.sources.bags.pointcloud2 import PointCloud2 as Cloud
 from placecell.sources.bags.pointcloud2 import PointField
 from placecell.sources.bags.pose_messages import frame_name
+from placecell.trajectories.covariance import stated_covariance
 from robot.node.messages import CertainPose, Diagnostic, StampedTransform, pose_of, values_of
 
 
@@ -52,7 +53,7 @@ def cloud_of(message: PointCloud2) -> Cloud:
 
 
 def odometry_of(message: Odometry) -> StampedTransform:
-    """Return the pose of the robot's base in the odometry frame.
+    """Return the pose of the robot's base in the odometry frame, with its covariance.
 
     Raises:
         ValueError: the pose has numbers that are not finite, or its quaternion is none.
@@ -63,6 +64,7 @@ def odometry_of(message: Odometry) -> StampedTransform:
         frame_name(message.header.frame_id),
         frame_name(message.child_frame_id),
         pose_of(values(pose.position, pose.orientation)),
+        stated_covariance(np.array(message.pose.covariance, dtype=np.float64)),
     )
 
 

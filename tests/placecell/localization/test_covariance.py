@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
 
-from placecell.localization.covariance import covariance_of, cross
+from placecell.localization.covariance import covariance_of
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.registration import register
+from placecell.trajectories.covariance import cross
 from tests.placecell.localization.scene_builders import a_pose, street
 
 

@@ -28,13 +28,21 @@ class FakeAgent:
     status: AgentStatus = field(default_factory=AgentStatus)
     map_to_odom: MapToOdom | None = None
     scans: list[tuple[Float32, float, Float64]] = field(default_factory=list)
+    covariances: list[Float64 | None] = field(default_factory=list)
     initial_poses: list[tuple[Float64, Float64]] = field(default_factory=list)
     messages: list[str] = field(default_factory=list)
     dropped: int = 0
     requests: int = 0
 
-    def on_scan(self, points: Float32, time_s: float, odom_pose: Float64) -> None:
+    def on_scan(
+        self,
+        points: Float32,
+        time_s: float,
+        odom_pose: Float64,
+        odom_covariance: Float64 | None = None,
+    ) -> None:
         self.scans.append((points, time_s, odom_pose))
+        self.covariances.append(odom_covariance)
         self.messages = [f"scan {len(self.scans)}"]
         self.status = replace(
             self.status, state=AgentState.LOCALIZING, time=time_s, scans=len(self.scans)

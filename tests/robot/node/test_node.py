@@ -56,6 +56,25 @@ def test_scan_gets_the_odometry_between_two_messages() -> None:
     assert time_s == 10.05
     assert pose[:3, 3] == pytest.approx([3, 0, 0])
     assert rig.told == ["scan 1"]
+    assert rig.agent.covariances == [None]
+
+
+def test_scan_gets_the_covariance_of_the_odometry_at_the_sensor() -> None:
+    rig = Rig(NodeSettings(mount=moved(2)))
+    first, last = np.diag([0.1, 0.1, 0.1, 0, 0, 0.01]), np.diag([0.3, 0.3, 0.3, 0, 0, 0.03])
+    rig.node.on_odometry(replace(odometry(10.0, 2.0), covariance=first))
+    rig.node.on_odometry(replace(odometry(10.1, 4.0), covariance=last))
+    rig.node.on_odometry(odometry(10.2, 6.0))
+    for seconds in (10.05, 10.1, 10.15):
+        rig.node.on_cloud(cloud(seconds))
+        assert rig.node.step(0)
+    between, at_last, unknown = rig.agent.covariances
+    assert between is not None
+    assert at_last is not None
+    # 2 m times an error of the heading of 0.02 rad^2: 0.08 m^2 sideways.
+    assert np.diag(between) == pytest.approx([0.2, 0.28, 0.2, 0, 0, 0.02])
+    assert np.diag(at_last) == pytest.approx([0.3, 0.42, 0.3, 0, 0, 0.03])
+    assert unknown is None
 
 
 def test_scan_at_the_time_of_the_odometry_does_not_wait_for_the_next_message() -> None:

@@ -57,6 +57,11 @@ def test_odometry_reads_back() -> None:
     back = cdr.read_odometry(data, "/odom")
     assert (back.parent, back.child) == ("odom", "base_link")
     assert back.pose == pytest.approx(POSE)
+    assert back.covariance is None
+    covariance = np.diag([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
+    given = StampedTransform(STAMP, "odom", "base_link", POSE, covariance)
+    back = cdr.read_odometry(cdr.write_odometry(given), "/odom")
+    assert np.array_equal(back.covariance, covariance)
 
 
 def test_cloud_reads_back() -> None:
