@@ -311,7 +311,7 @@ def drive(agent: "RobotAgent", playback: "Playback", speed: float | None) -> Non
     if speed is not None:
         scans = at_own_pace(scans, speed, agent.drop_scan)
     for scan in scans:
-        agent.on_scan(scan.points, scan.time, scan.pose)
+        agent.on_scan(scan.points, scan.time, scan.pose, scan.covariance)
         if speed is None:
             agent.wait(10.0)
         for message in agent.messages:

@@ -55,9 +55,13 @@ class DrivePlayback:
 
     def scans(self, first: int = 0) -> Iterator[PosedScan]:
         """Yield the scans from an index on; a scan that cannot be read has no points."""
+        covariances = self.drive.covariances
         for index in range(first, len(self.drive)):
             yield PosedScan(
-                self.drive.scan(index), float(self.drive.times[index]), self.drive.poses[index]
+                self.drive.scan(index),
+                float(self.drive.times[index]),
+                self.drive.poses[index],
+                None if covariances is None else covariances[index],
             )
 
 

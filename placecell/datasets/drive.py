@@ -92,6 +92,11 @@ class Drive(ABC):
     def __len__(self) -> int:
         return len(self.scan_files)
 
+    @property
+    def covariances(self) -> Float64 | None:
+        """Covariance of each scan's pose, float64 (scans, 6, 6) (`Trajectory.covariances`)."""
+        return None
+
     def scan_name(self, index: int) -> str:
         """Return the name of a scan in messages about the drive."""
         return self.scan_files[index].name

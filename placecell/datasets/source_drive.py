@@ -20,6 +20,7 @@ from placecell.sources.scan_options import (
     use_scan_options,
 )
 from placecell.sources.source import ScanSource
+from placecell.trajectories.covariance import interpolate_covariances
 from placecell.trajectories.interpolation import SAME
 
 LARGEST_SLOPE = 10.0
@@ -36,6 +37,7 @@ class SourceDrive(Drive):
         source: the source.
         scans: index of each scan in the source, int64 (scans,).
         source_poses: the poses, and how they were found.
+        is_leveled: whether the world of the poses was turned, so that covariances have other axes.
     """
 
     name = "source of scans"
@@ -98,6 +100,7 @@ class SourceDrive(Drive):
 
     def level(self) -> None:
         """Turn the world so that its z is up, if the ground shows that it is not."""
+        self.is_leveled = False
         ground = ground_in_world(self.source, self.scans.tolist(), self.poses)
         if ground is None or ground.tilt_deg < LARGEST_SLOPE:
             return
@@ -106,6 +109,7 @@ class SourceDrive(Drive):
             "the poses; the world is leveled by it"
         )
         self.poses = leveling_of(ground.up) @ self.poses
+        self.is_leveled = True
 
     def find_times(self) -> Float64:
         """Return the time of each scan, seconds; 0.1 s apart if nothing tells it."""
@@ -145,6 +149,13 @@ class SourceDrive(Drive):
         poses = track.poses.copy()
         poses[:, :3, 3] -= self.origin
         return SensorMotion.of(track.stamps, poses)
+
+    @cached_property
+    def covariances(self) -> Float64 | None:
+        track = self.source_poses.track
+        if track is None or track.covariances is None or track.stamps is None or self.is_leveled:
+            return None
+        return interpolate_covariances(self.times, track.stamps, track.covariances)
 
     def read_scan(self, index: int) -> LidarScan:
         scan = self.source.scan(int(self.scans[index]))

@@ -185,8 +185,8 @@ def on_sensor(found: ScanPoses, mount: Float64, name: str) -> SourcePoses:
     if abs(mount[2, 2]) < UPRIGHT:
         to_sensor = np.linalg.inv(mount)
         poses = to_sensor @ poses
-        track = track and replace(track, poses=to_sensor @ track.poses)
-    track = track and replace(track, poses=track.poses @ mount)
+        track = track and replace(track, poses=to_sensor @ track.poses, covariances=None)
+    track = track and track.mounted(mount)
     return SourcePoses(name, found.scans, poses @ mount, found.stamps, track)
 
 

@@ -29,11 +29,14 @@ class PosedScan:
         points: float32 (n, 3), meters, in the sensor's frame, deskewed.
         time: time of the scan, seconds.
         pose: pose of the sensor in the odometry frame, z up, float64 (4, 4).
+        covariance: covariance of the pose, of x, y, z and the rotations about the frame's axes,
+            float64 (6, 6); None if it is not known.
     """
 
     points: Float32
     time: float
     pose: Float64
+    covariance: Float64 | None = None
 
 
 class LiveOdometry:

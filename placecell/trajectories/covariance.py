@@ -34,14 +34,47 @@ def stated_covariance(values: ArrayLike) -> Float64 | None:
 
 
 def lever_arm(offset: Float64) -> Float64:
-    """Return the matrix J that carries a covariance C to a point beside as J C J^T, float64 (6, 6).
+    """Return the matrix J that carries a covariance C to a point beside it as J C J^T.
 
     Args:
-        offset: position of the point minus that of the pose, (3,), meters, in the poses' world.
+        offset: position of the point minus that of the pose, (..., 3), meters, in the poses' world.
+
+    Returns:
+        float64 (..., 6, 6).
     """
-    carried = np.eye(6)
-    carried[:3, 3:] = -cross(offset)
+    carried = np.tile(np.eye(6), (*offset.shape[:-1], 1, 1))
+    carried[..., :3, 3:] = -cross(offset)
     return carried
+
+
+def mounted(covariances: Float64, poses: Float64, mount: Float64) -> Float64:
+    """Return the covariances of a sensor from those of the robot, float64 (..., 6, 6).
+
+    Args:
+        covariances: of the robot's poses, (..., 6, 6).
+        poses: the robot's poses, (..., 4, 4).
+        mount: pose of the sensor on the robot, (4, 4).
+    """
+    arm = lever_arm(poses[..., :3, :3] @ mount[:3, 3])
+    return np.asarray(arm @ covariances @ arm.swapaxes(-1, -2))
+
+
+def interpolate_covariances(at: Float64, stamps: Float64, covariances: Float64) -> Float64:
+    """Return the covariances at times, float64 (n, 6, 6).
+
+    An error grows little from one pose to the next, so a covariance is linear between them.
+
+    Args:
+        at: times, (n,), seconds; those outside of `stamps` get the nearest covariance.
+        stamps: times of the covariances, (m,), seconds, ascending without repetitions.
+        covariances: (m, 6, 6), m > 0.
+    """
+    if len(stamps) == 1:
+        return np.repeat(covariances, len(at), axis=0)
+    after = np.clip(np.searchsorted(stamps, at), 1, len(stamps) - 1)
+    share = (at - stamps[after - 1]) / (stamps[after] - stamps[after - 1])
+    share = np.clip(share, 0.0, 1.0)[:, None, None]
+    return np.asarray((1 - share) * covariances[after - 1] + share * covariances[after])
 
 
 def cross(vectors: Float64) -> Float64:

@@ -17,7 +17,7 @@ from placecell.odometry.deskew import deskew
 from placecell.sources.bags.pointcloud2 import PointCloud2, decode
 from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import silent
-from placecell.trajectories.covariance import lever_arm
+from placecell.trajectories.covariance import mounted
 from robot.core.map_to_odom import MapToOdom
 from robot.core.settings import AgentSettings
 from robot.core.status import AgentStatus
@@ -211,8 +211,7 @@ class RobotNode:
         self._problem = ""
         covariance = posed.covariance
         if covariance is not None:
-            arm = lever_arm(posed.odom_pose[:3, :3] @ mount[:3, 3])
-            covariance = np.asarray(arm @ covariance @ arm.T)
+            covariance = mounted(covariance, posed.odom_pose, mount)
         self._agent.on_scan(points, time_s, np.asarray(posed.odom_pose @ mount), covariance)
         for message in self._agent.messages:
             self._tell(message)

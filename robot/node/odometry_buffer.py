@@ -7,6 +7,7 @@ import numpy as np
 
 from placecell.core.types import Float64
 from placecell.odometry.deskew import SensorMotion
+from placecell.trajectories.covariance import interpolate_covariances
 from placecell.trajectories.interpolation import SAME, interpolate
 from placecell.trajectories.scan_poses import LARGEST_GAP
 from robot.node.messages import StampedTransform
@@ -78,23 +79,15 @@ class OdometryBuffer:
         return pose
 
     def covariance_at(self, time: float) -> Float64 | None:
-        """Return the covariance of the pose at a time, float64 (6, 6); None if it is not known.
-
-        An error grows little from one message to the next, so the covariance is linear between.
-        """
+        """Return the covariance of the pose at a time, float64 (6, 6); None if it is not known."""
         after = bisect_left(self._stamps, time)
         near = range(max(0, after - 1), min(len(self._stamps), after + 1))
         found = [self._covariances[index] for index in near]
-        if not found or any(each is None for each in found):
+        known = [each for each in found if each is not None]
+        if not known or len(known) < len(found):
             return None
-        stamps = [self._stamps[index] for index in near]
-        share = 0.0
-        if len(near) == 2:
-            share = (min(time, stamps[1]) - stamps[0]) / (stamps[1] - stamps[0])
-        first, last = found[0], found[-1]
-        assert first is not None
-        assert last is not None
-        return np.asarray((1 - share) * first + share * last)
+        stamps = np.array([self._stamps[index] for index in near])
+        return np.asarray(interpolate_covariances(np.array([time]), stamps, np.stack(known))[0])
 
     def motion(self, first: float, last: float, mount: Float64) -> SensorMotion | None:
         """Return the sensor's motion from a time to another; None without two poses.

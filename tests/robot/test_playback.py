@@ -10,6 +10,16 @@ from placecell.sources.errors import DriveError
 from placecell.sources.scan_options import ScanOptions, use_scan_options
 from robot.playback import DrivePlayback, OdometryPlayback, at_own_pace, open_playback
 from tests.placecell.segment_builders import write_odometry
+from tests.placecell.sources.bags.bag_builders import (
+    PERIOD_NS,
+    START_NS,
+    Message,
+    cloud_message,
+    cloud_of,
+    odometry_message,
+    write_mcap,
+    xyz,
+)
 from tests.robot.agent_fakes import FakeClock, Street, at
 
 
@@ -70,6 +80,26 @@ def test_folder_with_poses_is_played_with_them(tmp_path: Path) -> None:
     assert len(scans) == len(playback) - 1
     np.testing.assert_array_equal(scans[0].pose, playback.drive.poses[1])
     assert playback.session == open_playback(tmp_path / "drive").session
+
+
+def test_bag_is_played_with_the_covariances_of_its_odometry(tmp_path: Path) -> None:
+    points = np.random.default_rng(0).normal(size=(20, 3))
+    messages: list[Message] = []
+    for number in range(5):
+        stamp = START_NS + number * PERIOD_NS
+        covariance = np.diag([0.1, 0.1, 0.1, 0.1, 0.1, 0.01]) * (1 + number)
+        odometry = odometry_message(
+            at(float(number)), stamp, "cdr", child="lidar", covariance=covariance
+        )
+        cloud = cloud_of(xyz(points), stamp_ns=stamp + PERIOD_NS // 2)
+        messages.append(("/odom", stamp, odometry))
+        messages.append(("/points", stamp, cloud_message(cloud, "cdr")))
+    playback = open_playback(write_mcap(tmp_path / "a.mcap", messages))
+    scans = list(playback.scans())
+    assert len(scans) == 4  # The last one is after the odometry.
+    for number, scan in enumerate(scans):
+        assert scan.covariance is not None
+        np.testing.assert_allclose(scan.covariance[0, 0], 0.1 * (1.5 + number), rtol=1e-6)
 
 
 @pytest.fixture

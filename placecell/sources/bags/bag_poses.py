@@ -67,8 +67,7 @@ class BagPoses:
         """Poses of the sensor, or those of the body if the sensor's pose on it is not known."""
         if self.body is None or not self.extrinsic.found:
             return self.body
-        poses = self.body.poses @ self.extrinsic.transform
-        return replace(self.body, poses=poses, frame=self.extrinsic.sensor)
+        return replace(self.body.mounted(self.extrinsic.transform), frame=self.extrinsic.sensor)
 
 
 def read_poses(
@@ -250,7 +249,15 @@ def topic_poses(
             )
             stamps = stamps + shift
     stamps, index = np.unique(stamps, return_index=True)
-    return Trajectory(transforms[index], stamps, first.child, first.parent, tuple(remarks))
+    stated = [each.covariance for each in poses if each.covariance is not None]
+    return Trajectory(
+        transforms[index],
+        stamps,
+        first.child,
+        first.parent,
+        tuple(remarks),
+        np.stack(stated)[usable][index] if len(stated) == len(poses) else None,
+    )
 
 
 def clock_shift(

@@ -61,6 +61,7 @@ def test_odometry_reads_back() -> None:
     covariance = np.diag([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
     given = StampedTransform(STAMP, "odom", "base_link", POSE, covariance)
     back = cdr.read_odometry(cdr.write_odometry(given), "/odom")
+    assert back.covariance is not None
     assert np.array_equal(back.covariance, covariance)
 
 

@@ -198,17 +198,19 @@ def odometry_message(
     encoding: str,
     frame: str = "odom",
     child: str = "base_link",
+    covariance: NDArray[np.float64] | None = None,
 ) -> Any:
-    """Return a nav_msgs/Odometry."""
+    """Return a nav_msgs/Odometry; an unknown covariance is zeros."""
     store = typestore(encoding)
     vector = store.types["geometry_msgs/msg/Vector3"]
     twist = store.types["geometry_msgs/msg/Twist"](vector(0.0, 0.0, 0.0), vector(0.0, 0.0, 0.0))
-    covariance = np.zeros(36)
+    empty = np.zeros(36)
+    stated = empty if covariance is None else covariance.reshape(36)
     return store.types[ODOMETRY](
         header=header(store, stamp_ns, frame),
         child_frame_id=child,
-        pose=store.types["geometry_msgs/msg/PoseWithCovariance"](pose_of(store, pose), covariance),
-        twist=store.types["geometry_msgs/msg/TwistWithCovariance"](twist, covariance),
+        pose=store.types["geometry_msgs/msg/PoseWithCovariance"](pose_of(store, pose), stated),
+        twist=store.types["geometry_msgs/msg/TwistWithCovariance"](twist, empty),
     )
 
 

@@ -70,10 +70,17 @@ def clouds(encoding: str = "cdr", offset_ns: int = 0) -> list[Message]:
 
 
 def odometry(
-    encoding: str = "cdr", way: Sequence[Float64] = tuple(WAY), **names: str
+    encoding: str = "cdr",
+    way: Sequence[Float64] = tuple(WAY),
+    child: str = "base_link",
+    covariances: Sequence[Float64 | None] = (None,) * COUNT,
 ) -> list[Message]:
     return [
-        ("/odom", stamp(n), odometry_message(each, stamp(n), encoding, **names))
+        (
+            "/odom",
+            stamp(n),
+            odometry_message(each, stamp(n), encoding, child=child, covariance=covariances[n]),
+        )
         for n, each in enumerate(way)
     ]
 
@@ -120,6 +127,38 @@ def test_odometry_and_static_transforms_give_the_sensors_poses(
     assert body is not None
     assert body.frame == "base_link"
     assert any("'/odom'" in note for note in source.notes())
+
+
+def stated(index: int) -> Float64:
+    return np.diag([0.1, 0.1, 0.1, 0.0, 0.0, 0.01]) * (1 + index)
+
+
+def test_covariances_of_the_odometry_become_those_of_the_sensor(tmp_path: Path) -> None:
+    beside = pose(2, 0, 1, 0)
+    messages = (
+        static(("base_link", "lidar", beside))
+        + clouds()
+        + odometry(covariances=list(map(stated, range(COUNT))))
+    )
+    found = Mcap(write_mcap(tmp_path / "a.mcap", messages)).trajectory()
+    assert found is not None
+    assert found.covariances is not None
+    across = WAY[:, :2, 1]  # left of the robot
+    sideways = 2**2 * 0.01 * (1 + np.arange(COUNT))
+    assert_allclose(
+        np.einsum("ni,nij,nj->n", across, found.covariances[:, :2, :2], across),
+        0.1 * (1 + np.arange(COUNT)) + sideways,
+    )
+    assert_allclose(found.covariances[:, 5, 5], 0.01 * (1 + np.arange(COUNT)))
+
+
+@pytest.mark.parametrize("lacking", [range(COUNT), [3]], ids=["all", "one"])
+def test_odometry_whose_covariance_is_empty_has_none(tmp_path: Path, lacking: list[int]) -> None:
+    known = [None if n in lacking else stated(n) for n in range(COUNT)]
+    messages = clouds() + odometry(covariances=known)
+    found = Mcap(write_mcap(tmp_path / "a.mcap", messages)).trajectory()
+    assert found is not None
+    assert found.covariances is None
 
 
 def test_sensor_is_found_over_a_common_parent(tmp_path: Path) -> None:
