@@ -8,6 +8,9 @@ from placecell.core.types import Float64
 class Keyframes:
     """Chooses a keyframe whenever the robot is some meters away from the last one.
 
+    A scan is chosen if the next one is expected to miss this distance by more. So a robot whose
+    scans are 1.99 m apart makes a keyframe of each, not of every second one.
+
     The first keyframe comes after some scans, so that a robot that stands still is localized, too.
     A robot that drives fast makes it earlier, after the distance between two keyframes: its local
     map is not complete then, but often shows enough to localize. The noise of the odometry of a
@@ -27,6 +30,7 @@ class Keyframes:
         self._scans = 0
         self._first: Float64 | None = None
         self._last: Float64 | None = None
+        self._before: Float64 | None = None
 
     @property
     def is_complete(self) -> bool:
@@ -37,10 +41,12 @@ class Keyframes:
         """Take the pose of a scan, float64 (4, 4); return whether the scan is a keyframe."""
         self._scans += 1
         position = odom_pose[:3, 3]
+        step = 0.0 if self._before is None else float(np.linalg.norm(position - self._before))
+        self._before = position.copy()
         if self._first is None:
             self._first = position.copy()
-        before = self._first if self._last is None else self._last
-        chosen = bool(np.linalg.norm(position - before) >= self._meters)
+        last = self._first if self._last is None else self._last
+        chosen = float(np.linalg.norm(position - last)) + step / 2 >= self._meters
         if self._last is None:
             chosen = chosen or self.is_complete
         if chosen:
@@ -54,5 +60,5 @@ class Keyframes:
     def reset(self, odom_pose: Float64) -> None:
         """Begin anew after a jump, with the pose (4, 4) of the first scan of the new place."""
         self._scans = 1
-        self._first = odom_pose[:3, 3].copy()
+        self._first = self._before = odom_pose[:3, 3].copy()
         self._last = None

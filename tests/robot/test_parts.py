@@ -65,23 +65,29 @@ def test_keyframes_follow_the_distance_not_the_noise() -> None:
     assert rule.add(at(2.1))
     rule.expect()
     assert rule.add(at(2.2))
-    rule.reset(at(48.5))
+    rule.reset(at(49.0))
     assert not rule.add(at(50))
 
 
 def test_fast_robot_makes_a_keyframe_before_its_local_map_is_complete() -> None:
     rule = Keyframes(2.0, 5)
-    assert [rule.add(at(1.5 * place)) for place in range(6)] == [False, False, True] + [
-        False,
-        True,
-        False,
-    ]
+    found = [(rule.add(at(x)), rule.is_complete) for x in (0.0, 1.0, 2.0, 3.0, 4.0)]
+    assert found == [(False, False), (False, False), (True, False), (False, False), (True, True)]
     rule.reset(at(100.0))
     assert not rule.is_complete
     assert rule.add(at(102.0))
     assert not rule.is_complete
     found = [(rule.add(at(x)), rule.is_complete) for x in (103.0, 104.0, 105.0)]
     assert found == [(False, False), (True, False), (False, True)]
+
+
+@pytest.mark.parametrize(
+    ("apart", "every"), [(0.1, 20), (0.3, 7), (0.9, 2), (1.5, 1), (1.99, 1), (2.01, 1), (5.0, 1)]
+)
+def test_keyframe_is_the_scan_nearest_to_its_distance(apart: float, every: int) -> None:
+    rule = Keyframes(2.0, 1)
+    chosen = [number for number in range(100) if rule.add(at(apart * number))]
+    assert set(np.diff(chosen)) == {every}
 
 
 def test_scans_of_one_drive_fit_and_those_of_another_place_do_not() -> None:
