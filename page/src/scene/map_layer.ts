@@ -208,7 +208,7 @@ export class MapLayer {
     return drawn;
   }
 
-  /** Row of the segment nearest to a point of the screen, within so many pixels; -1 if none. */
+  /** Row of the segment nearest to a point of the screen, by its point or its shape, within so many pixels; -1 if none. */
   pick(
     camera: PerspectiveCamera | OrthographicCamera, x: number, y: number, width: number, height: number,
     pixels: number,
@@ -216,20 +216,23 @@ export class MapLayer {
     const all = new Matrix4()
       .multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse)
       .multiply(this.group.matrix).elements;
-    const at = this.points.geometry.getAttribute("position").array;
     const found = { row: -1, distance: pixels, depth: Infinity };
-    for (let place = 0; place < this.rows.length; place += 1) {
-      const [px, py, pz] = [at[3 * place]!, at[3 * place + 1]!, at[3 * place + 2]!];
-      const w = all[3]! * px + all[7]! * py + all[11]! * pz + all[15]!;
-      if (w <= 0) continue;
-      const sx = ((all[0]! * px + all[4]! * py + all[8]! * pz + all[12]!) / w + 1) * 0.5 * width;
-      const sy = (1 - (all[1]! * px + all[5]! * py + all[9]! * pz + all[13]!) / w) * 0.5 * height;
-      const distance = Math.hypot(sx - x, sy - y);
-      if (distance > pixels) continue;
-      if (distance < found.distance - 1 || (distance < found.distance + 1 && w < found.depth)) {
-        found.row = this.rows[place]!;
-        found.distance = distance;
-        found.depth = w;
+    for (const [drawn, rows] of [[this.points, this.rows], [this.shapes, this.shapeRows]] as const) {
+      if (!rows.length) continue;
+      const at = drawn.geometry.getAttribute("position").array;
+      for (let place = 0; place < rows.length; place += 1) {
+        const [px, py, pz] = [at[3 * place]!, at[3 * place + 1]!, at[3 * place + 2]!];
+        const w = all[3]! * px + all[7]! * py + all[11]! * pz + all[15]!;
+        if (w <= 0) continue;
+        const sx = ((all[0]! * px + all[4]! * py + all[8]! * pz + all[12]!) / w + 1) * 0.5 * width;
+        const sy = (1 - (all[1]! * px + all[5]! * py + all[9]! * pz + all[13]!) / w) * 0.5 * height;
+        const distance = Math.hypot(sx - x, sy - y);
+        if (distance > pixels) continue;
+        if (distance < found.distance - 1 || (distance < found.distance + 1 && w < found.depth)) {
+          found.row = rows[place]!;
+          found.distance = distance;
+          found.depth = w;
+        }
       }
     }
     return found;

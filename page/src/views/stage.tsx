@@ -45,9 +45,9 @@ export function Stage() {
         onPointerMove={(event) => setPointer(at(event))} onPointerLeave={() => setPointer(null)} onKeyDown={keys}
       />
       {failure && <p class="failure" role="alert">{failure}</p>}
+      <Legend />
       <Labels />
       <Tools />
-      <Legend />
       {shown && <Compass />}
       {shown && <Scale pointer={pointer} />}
       {!shown && <p class="empty" role="status">{waiting.length ? `Loading ${waiting.join(", ")}.` : EMPTY[mayWriteAny.value ? 1 : 0]}</p>}
