@@ -20,7 +20,7 @@ POLL_SECONDS = 0.05
 ATTEMPTS = 10
 """Number of starts after which a replica that ends again and again is a fault."""
 
-STARTING_NICE = 15
+STARTING_NICE = 5
 """Niceness of a replica that starts. In a fleet it starts on its own machine, or on cores that the
 others leave; here two that start at once would take all cores from the third."""
 

@@ -6,7 +6,7 @@ from placecell.core.cancellation import current
 from service.maps.history import compose_all, replay
 from service.maps.repository import MapRepository
 from service.maps.snapshot import KEEPS_FRAME, MapSnapshot
-from service.maps.store import Commit, MapHead, SharedStore
+from service.maps.store import Commit, MapHead, MapHistory, SharedStore
 
 
 def newest(
@@ -20,7 +20,8 @@ def newest(
     Args:
         maps: maps in memory.
         store: store of the maps.
-        head: head of the map in the store.
+        head: head of the map in the store; one that was read before the version in memory was
+            written is read anew.
         before: version in memory; None if there is none.
 
     Raises:
@@ -32,13 +33,27 @@ def newest(
         try:
             commits = store.commits_since(before.head, head)
         except KeyError:
-            pass  # a fork, compacted, or damaged
+            pass  # this service wrote after the look at the head; or a fork, compacted, or damaged
         else:
             return _advanced(maps, before, head, commits)
     with store.read(head.uid) as history:
         head = history.head
+        if before is not None and _is_of(history, before):
+            commits = list(history.blobs(before.head.sequence, head.sequence))
+            return _advanced(maps, before, head, commits)
         layers = replay(history, head.sequence)
     return MapSnapshot(head, layers, head.oldest, head.sequence, maps.indexed(layers, None))
+
+
+def _is_of(history: MapHistory, before: MapSnapshot) -> bool:
+    """Return whether the history has this version, so that later commits lead on from it."""
+    head = history.head
+    if head.uid != before.head.uid or head.sequence < before.head.sequence:
+        return False
+    try:
+        return history.mark(before.head.sequence) == before.head.mark
+    except KeyError:
+        return False
 
 
 def _advanced(

@@ -12,6 +12,7 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
+from service.maps.following import advance
 from service.maps.following import follower as following
 from service.maps.postgres import database
 from service.maps.postgres.store import PostgresStore
@@ -253,6 +254,25 @@ def test_write_looks_once_for_what_others_wrote_before_it(
         looks.clear()
         assert tag(edit(service, manifest, 5 * first)).endswith(f"-{first}")
         assert looks == ["yard"]
+
+
+def test_look_that_an_own_write_overtook_reads_no_whole_map(
+    replica: Start, manifest: Manifest, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A long history takes seconds to read, and all writes of the map would wait."""
+    monkeypatch.setattr(following.Follower, "_work", lambda self: None)
+    service = replica("a")
+    put(service, manifest)
+    find, found = PostgresStore.find, list[SharedMap | None]()
+
+    def late(store: PostgresStore, name: str) -> SharedMap | None:
+        found.append(find(store, name))
+        return found[max(len(found) - 2, 0)]
+
+    monkeypatch.setattr(PostgresStore, "find", late)
+    monkeypatch.setattr(advance, "replay", None)
+    for number in range(2, 6):
+        assert tag(edit(service, manifest, 5 * number)).endswith(f"-{number}")
 
 
 def test_map_created_at_two_services_has_one_content(
