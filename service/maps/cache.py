@@ -59,17 +59,8 @@ class MapCache:
             head: head of the map at that version.
             content: segments of that version.
         """
-        self.folder.mkdir(exist_ok=True)
         line = json.dumps({"name": head.name, "sequence": head.sequence, "mark": head.mark})
-        path = self._path(head.uid)
-        unfinished = path.with_suffix(_UNFINISHED)
-        with unfinished.open("wb") as written:
-            written.write(line.encode() + b"\n")
-            written.write(encode(content))
-            written.flush()
-            os.fsync(written.fileno())
-        unfinished.replace(path)
-        sync_folder(self.folder)
+        write_whole(self._path(head.uid), line.encode() + b"\n", encode(content))
 
     def keep_only(self, uids: Collection[str]) -> None:
         """Remove the files of all other maps, and unfinished files."""
@@ -79,3 +70,20 @@ class MapCache:
 
     def _path(self, uid: str) -> Path:
         return self.folder / f"{uid}{_SUFFIX}"
+
+
+def write_whole(path: Path, *parts: bytes) -> None:
+    """Write a file of the cache whole or not at all; `MapCache.keep_only` removes unfinished ones.
+
+    Raises:
+        OSError: the file could not be written; an earlier one stays.
+    """
+    path.parent.mkdir(exist_ok=True)
+    unfinished = path.with_name(path.name + _UNFINISHED)
+    with unfinished.open("wb") as written:
+        for part in parts:
+            written.write(part)
+        written.flush()
+        os.fsync(written.fileno())
+    unfinished.replace(path)
+    sync_folder(path.parent)

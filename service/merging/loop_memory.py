@@ -15,6 +15,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from placecell.pose_graph.known_loops import KnownLoops
+from service.maps.cache import write_whole
 
 MOST = 32
 """Largest number of maps whose loops are in memory; the least recently optimized leaves it."""
@@ -23,7 +24,6 @@ VERSION = 1
 """Version of the files."""
 
 _SUFFIX = ".loops"
-_UNFINISHED = ".unfinished"
 
 logger = logging.getLogger("placecell")
 
@@ -82,13 +82,10 @@ class LoopMemory:
         if self._folder is None:
             return
         path = self._folder / f"{uid}{_SUFFIX}"
-        unfinished = path.with_suffix(f"{_SUFFIX}{_UNFINISHED}")
+        file, arrays = BytesIO(), dict[str, Any](known.arrays())
+        np.savez(file, finder=np.array(_stamp(finder)), **arrays)
         try:
-            self._folder.mkdir(exist_ok=True)
-            with unfinished.open("wb") as file:
-                arrays: dict[str, Any] = known.arrays()
-                np.savez(file, finder=np.array(_stamp(finder)), **arrays)
-            unfinished.replace(path)
+            write_whole(path, file.getvalue())
         except OSError as error:  # the next optimization searches all loops again
             logger.warning("the loops of %s cannot be kept: %s", path, error)
 

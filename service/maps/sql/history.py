@@ -1,7 +1,8 @@
 """History of one map, read and checked against its marks."""
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 from service.maps.sql.rows import Rows
 from service.maps.sql.tables import COMMIT, commit_from
@@ -65,17 +66,17 @@ class SqlHistory:
     def blobs(self, after: int, until: int) -> Iterator[tuple[Commit, bytes]]:
         """Yield the commits from `after`, exclusive, to `until`; StoreError if one is damaged."""
         before, sequence = self.mark(after), after
-        for *columns, blob in self._rows.execute(
+        rows = self._rows.execute(
             f"{COMMIT}, delta FROM commits "
             "WHERE map = ? AND sequence > ? AND sequence <= ? ORDER BY sequence",
             (self._row, after, until),
-        ):
-            commit, sequence = commit_from(columns), sequence + 1
-            is_next = commit.sequence == sequence and isinstance(blob, bytes)
-            if not is_next or not follows(before, commit, blob):
-                raise self._damaged(f"version {sequence}")
-            yield commit, blob
-            before = commit.mark
+        )
+        try:
+            for commit, blob in _linked(rows, sequence, before):
+                yield commit, blob
+                sequence, before = commit.sequence, commit.mark
+        except _UnlinkedError as error:
+            raise self._damaged(f"version {error.sequence}") from error
         if sequence != until or (until == self._head.sequence and before != self._head.mark):
             raise self._damaged(f"version {until}")
 
@@ -96,17 +97,37 @@ def commits_since(rows: Rows, before: MapHead, head: MapHead) -> list[tuple[Comm
     found: list[tuple[Commit, bytes]] = []
     sequence, mark = before.sequence, before.mark
     if sequence < head.sequence:
-        for *columns, blob in rows.execute(
+        later = rows.execute(
             f"{COMMIT}, delta FROM commits WHERE map = (SELECT map FROM maps WHERE uid = ?) "
             "AND sequence > ? AND sequence <= ? ORDER BY sequence",
             (head.uid, sequence, head.sequence),
-        ):
-            commit, sequence = commit_from(columns), sequence + 1
-            is_next = commit.sequence == sequence and isinstance(blob, bytes)
-            if not is_next or not follows(mark, commit, blob):
-                raise KeyError(sequence)
-            found.append((commit, blob))
-            mark = commit.mark
+        )
+        found.extend(_linked(later, sequence, mark))
+    if found:
+        sequence, mark = found[-1][0].sequence, found[-1][0].mark
     if (sequence, mark) != (head.sequence, head.mark):
         raise KeyError(head.sequence)
     return found
+
+
+class _UnlinkedError(KeyError):
+    """A commit is missing, or does not follow the one before it.
+
+    Attributes:
+        sequence: the sequence that it has or should have.
+    """
+
+    def __init__(self, sequence: int) -> None:
+        super().__init__(sequence)
+        self.sequence = sequence
+
+
+def _linked(rows: Iterable[Any], sequence: int, mark: str) -> Iterator[tuple[Commit, bytes]]:
+    """Yield the commits after the version with this mark, each once it is proved to follow."""
+    for *columns, blob in rows:
+        commit, sequence = commit_from(columns), sequence + 1
+        is_next = commit.sequence == sequence and isinstance(blob, bytes)
+        if not is_next or not follows(mark, commit, blob):
+            raise _UnlinkedError(sequence)
+        yield commit, blob
+        mark = commit.mark
