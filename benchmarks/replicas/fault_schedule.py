@@ -3,6 +3,8 @@
 import random
 from dataclasses import dataclass
 
+from benchmarks.replicas.replica_group import STARTING_NICE
+
 SPREAD = 0.95
 """Share of the duration over which the faults are spread; late faults use the rest."""
 
@@ -22,6 +24,7 @@ class FleetCrashPlan:
         full: duration of a full disk, seconds.
         replicas: number of replicas.
         writers, readers: number of robots.
+        starting_nice: niceness of a replica while it starts.
     """
 
     seconds: float = 1200.0
@@ -35,10 +38,15 @@ class FleetCrashPlan:
     replicas: int = 3
     writers: int = 3
     readers: int = 3
+    starting_nice: int = STARTING_NICE
 
     @classmethod
     def of(
-        cls, seconds: float, kills: int | None = None, crashes: int | None = None
+        cls,
+        seconds: float,
+        kills: int | None = None,
+        crashes: int | None = None,
+        starting_nice: int = STARTING_NICE,
     ) -> "FleetCrashPlan":
         """Return the plan for a duration, with about a fault every ten seconds.
 
@@ -46,6 +54,7 @@ class FleetCrashPlan:
             seconds: planned duration of the faults.
             kills: number of kills of a replica; five a minute unless given.
             crashes: number of crashes of the primary; one in two minutes unless given.
+            starting_nice: niceness of a replica while it starts.
         """
         minutes = seconds / 60
         crashes = crashes if crashes is not None else max(round(minutes / 2), 1)
@@ -56,6 +65,7 @@ class FleetCrashPlan:
             cuts=max(round(minutes / 4), 1),
             pauses=max(round(minutes / 4), 1),
             full_disks=max(round(minutes / 10), 1),
+            starting_nice=starting_nice,
         )
 
 

@@ -19,14 +19,14 @@ from placecell.core.types import UInt32
 ONCE = Retries(attempts=1)
 """Retry policy without retries: the robots repeat calls by themselves, and note each answer."""
 
-WRITE_SECONDS = 1.5
+WRITE_SECONDS = 1.2
 """Time limit of one attempt of a write, seconds."""
 
 READ_SECONDS = 1.0
 """Time limit of one attempt of a read, seconds."""
 
-PAUSE_SECONDS = 0.1
-"""Mean time between two calls of a robot, seconds."""
+PAUSE_SECONDS = 0.2
+"""Longest time between two calls of a robot, seconds; the mean is half of it."""
 
 RETRY_SECONDS = 0.05
 """Time between two attempts, seconds."""
@@ -90,6 +90,7 @@ class FleetRobot:
         answers: times of its answers.
         refused: number of failed attempts, by status; `0` if there was no answer.
         failed: monotonic time, duration in seconds and status of each failed attempt.
+        answered: duration of each attempt that succeeded, seconds.
         wrong: description of each fault.
     """
 
@@ -99,6 +100,7 @@ class FleetRobot:
     answers: AnswerTimes
     refused: Counter[str] = field(default_factory=Counter)
     failed: list[tuple[float, float, str]] = field(default_factory=list)
+    answered: list[float] = field(default_factory=list)
     wrong: list[str] = field(default_factory=list)
 
     def run(self, ended: Event) -> None:
@@ -114,16 +116,18 @@ class FleetRobot:
 
     def pause(self, ended: Event) -> bool:
         """Wait a random time; return whether the run goes on."""
-        return not ended.wait(self.draw.expovariate(1 / PAUSE_SECONDS))
+        return not ended.wait(self.draw.uniform(0.0, PAUSE_SECONDS))
 
     def note_failure(self, begun: float, status: str) -> None:
         """Note that an attempt failed now."""
         self.refused[status] += 1
         self.failed.append((begun, time.monotonic() - begun, status))
 
-    def note_answer(self) -> None:
-        """Note that a call succeeded now."""
-        self.answers.times.append(time.monotonic())
+    def note_answer(self, begun: float) -> None:
+        """Note that an attempt succeeded now."""
+        now = time.monotonic()
+        self.answered.append(now - begun)
+        self.answers.times.append(now)
 
 
 @dataclass(slots=True)
@@ -199,7 +203,7 @@ class FleetWriter(FleetRobot):
                     self.wrong.append(f"{self.name}: {error}")
                     return None
             else:
-                self.note_answer()
+                self.note_answer(begun)
                 return written
             time.sleep(RETRY_SECONDS)
         return None
@@ -239,7 +243,7 @@ class FleetReader(FleetRobot):
                 answer = self._ask(http, probe, is_whole)
                 if answer.status_code == 200:
                     shows = self._shows(answer, probe, is_whole)
-                    self.note_answer()
+                    self.note_answer(begun)
                     self.reads += 1
                     if not shows:
                         self.stale += 1

@@ -181,7 +181,7 @@ def run_fleet_crash(
     begun = time.monotonic()
     with ExitStack() as opened:
         folder = opened.enter_context(scratch_folder())
-        fleet = opened.enter_context(running_fleet(folder, plan.replicas, tell))
+        fleet = opened.enter_context(running_fleet(folder, plan.replicas, tell, plan.starting_nice))
         with Client(fleet.address) as client:
             info = client.info()
             template = MapTemplate.from_info(info)
@@ -227,7 +227,7 @@ def run_fleet_crash(
     return _report(writers, readers, faults, verdict) | {
         "promotions": promotions,
         "failed_starts": failed_starts,
-        "starting_nice": STARTING_NICE if may_set_niceness() else 0,
+        "starting_nice": plan.starting_nice if may_set_niceness() else 0,
         "restart_s": {"p50": round(starts[len(starts) // 2], 2), "max": round(starts[-1], 2)},
         "wrong": wrong,
         "good": is_good(verdict, readers, wrong),
@@ -267,6 +267,7 @@ def _report(
         "faults": faults.log.counts(),
         "skipped": faults.skipped,
         "failed_attempts": dict(sorted(refused.items())),
+        "answered_s": {"write": durations(writers), "read": durations(readers)},
     }
 
 
@@ -317,7 +318,10 @@ class RunningFleet:
 
 @contextmanager
 def running_fleet(
-    folder: Path, replicas: int, tell: Callable[[str], None] = lambda _: None
+    folder: Path,
+    replicas: int,
+    tell: Callable[[str], None] = lambda _: None,
+    starting_nice: int = STARTING_NICE,
 ) -> Iterator[RunningFleet]:
     """Run database, replicas and balancer for a block.
 
@@ -325,6 +329,7 @@ def running_fleet(
         folder: empty folder of all files.
         replicas: number of replicas.
         tell: takes a line about the progress.
+        starting_nice: niceness of a replica while it starts.
     """
     with ExitStack() as opened:
         database = PostgresPair(folder, tell)
@@ -337,7 +342,7 @@ def running_fleet(
         hosts = ",".join(f"127.0.0.1:{each.port}" for each in cutters.values())
         url = f"postgresql://{USER}@{hosts}/{DATABASE}"
         url += "?target_session_attrs=read-write&connect_timeout=2"
-        group = ReplicaGroup(folder, replicas, {"PLACECELL_DATABASE": url})
+        group = ReplicaGroup(folder, replicas, {"PLACECELL_DATABASE": url}, starting_nice)
         opened.callback(group.stop)
         group.start()
         tell(f"{replicas} replicas are ready")
@@ -398,6 +403,16 @@ def slowest_gaps(
         }
         for seconds, begin, end, robot in sorted(gaps, key=lambda gap: gap[0], reverse=True)[:most]
     ]
+
+
+def durations(robots: Sequence[FleetRobot]) -> dict[str, float]:
+    """Return median, 99th percentile and maximum of the attempts that succeeded, seconds."""
+    seconds = sorted(each for robot in robots for each in robot.answered) or [0.0]
+    return {
+        "p50": round(seconds[len(seconds) // 2], 3),
+        "p99": round(seconds[int(0.99 * (len(seconds) - 1))], 3),
+        "max": round(seconds[-1], 3),
+    }
 
 
 def answered(robot: FleetRobot, after: float) -> bool:

@@ -21,8 +21,11 @@ ATTEMPTS = 10
 """Number of starts after which a replica that ends again and again is a fault."""
 
 STARTING_NICE = 5
-"""Niceness of a replica that starts. In a fleet it starts on its own machine, or on cores that the
-others leave; here two that start at once would take all cores from the third."""
+"""Niceness of a replica that starts, unless another is asked for.
+
+In a fleet it starts on its own machine, or on cores that the others leave; here two that start at
+once would take all cores from the third.
+"""
 
 PAUSE_SECONDS = 0.5
 """Time before a replica that ended is started again, seconds."""
@@ -46,11 +49,14 @@ class Replica:
         starts: seconds of each start, until it was ready.
     """
 
-    def __init__(self, folder: Path, environment: Mapping[str, str]) -> None:
+    def __init__(
+        self, folder: Path, environment: Mapping[str, str], starting_nice: int = STARTING_NICE
+    ) -> None:
         self.port = free_port()
         self.starts: list[float] = []
         self._folder = folder
         self._environment = ENVIRONMENT | dict(environment)
+        self._starting_nice = starting_nice
         self._service: Service | None = None
         self._lock = Lock()
 
@@ -83,7 +89,7 @@ class Replica:
             self._service = service = Service(
                 self._folder, "--port", str(self.port), environment=self._environment
             )
-        set_niceness(service.process.pid, STARTING_NICE)
+        set_niceness(service.process.pid, self._starting_nice)
         while not self.is_ready:
             if service.process.poll() is not None or time.monotonic() > begun + READY_SECONDS:
                 raise RuntimeError(f"a replica is not ready: {service.log()[-3000:]}")
@@ -122,9 +128,16 @@ class ReplicaGroup:
         failed_starts: number of starts that ended, such as during a failover.
     """
 
-    def __init__(self, folder: Path, count: int, environment: Mapping[str, str]) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        count: int,
+        environment: Mapping[str, str],
+        starting_nice: int = STARTING_NICE,
+    ) -> None:
         self.replicas = tuple(
-            Replica(folder / f"replica-{number}", environment) for number in range(1, count + 1)
+            Replica(folder / f"replica-{number}", environment, starting_nice)
+            for number in range(1, count + 1)
         )
         self.faults: list[str] = []
         self.failed_starts = 0

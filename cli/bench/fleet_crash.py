@@ -19,6 +19,14 @@ def fleet_crash(
         int | None,
         typer.Option(min=1, help="Number of primary crashes; 1 in 2 minutes unless given."),
     ] = None,
+    starting_nice: Annotated[
+        int,
+        typer.Option(
+            min=0,
+            max=19,
+            help="Niceness of a replica while it starts; in a fleet, it starts on its own machine.",
+        ),
+    ] = 5,
     json_file: JsonFile = None,
     seed: Drawn = 0,
 ) -> None:
@@ -37,7 +45,7 @@ def fleet_crash(
 
     with clear_errors():
         try:
-            plan = FleetCrashPlan.of(60 * minutes, kills, crashes)
+            plan = FleetCrashPlan.of(60 * minutes, kills, crashes, starting_nice)
             report = run_fleet_crash(plan, seed, tell)
         except MissingToolError as error:
             typer.echo(f"{error}", err=True)
