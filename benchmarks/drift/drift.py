@@ -50,10 +50,22 @@ class DriftPlan:
     kiss_slam: Path | None = None
 
 
-def run_drift(plan: DriftPlan, tell: Callable[[str], None] = lambda _: None) -> dict[str, Any]:
-    """Run the measurement; return its report."""
-    rows = []
+def run_drift(
+    plan: DriftPlan,
+    tell: Callable[[str], None] = lambda _: None,
+    keep: Callable[[dict[str, Any]], None] = lambda _: None,
+) -> dict[str, Any]:
+    """Run the measurement; return its report.
+
+    Args:
+        plan: what to measure.
+        tell: takes a line about the progress.
+        keep: takes the report so far after each row, because all rows take hours.
+    """
+    planned = len(plan.cases) * len(plan.percents)
+    report: dict[str, Any] = {"machine": machine(), "rows_planned": planned, "rows": []}
     with Engine.temporary(model_folder(DEFAULT_MODEL)) as engine:
+        report = {"model_id": engine.model.id} | report
         for case in plan.cases:
             maps = robot_maps(case, plan.percents, plan.cache, tell)
             for percent in plan.percents:
@@ -66,9 +78,9 @@ def run_drift(plan: DriftPlan, tell: Callable[[str], None] = lambda _: None) -> 
                     f"{row['case']}: {row['ate_before_m']} m before, {row['ate_after_m']} m after, "
                     f"{row['loops_accepted']} loops, {row['loops_wrong']} wrong"
                 )
-                rows.append(row)
-        model_id = engine.model.id
-    return {"model_id": model_id, "machine": machine(), "rows": rows}
+                report["rows"].append(row)
+                keep(report)
+    return report
 
 
 def measured(

@@ -79,7 +79,8 @@ def drift(
             for count in robots or [1, 3]
         ]
         plan = DriftPlan(cases, percent or [1.0, 2.0], cache, every=every, kiss_slam=kiss_slam)
-        report = run_drift(plan, tell)
+        # A long run that is stopped leaves the rows that it has.
+        report = run_drift(plan, tell, keep=lambda so_far: write_json(so_far, json_file))
         write_json(report, json_file)
     table = new_table("case", "meters", "loops", "wrong", "ATE before", "after", "seconds")
     for row in report["rows"]:

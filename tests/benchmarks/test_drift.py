@@ -1,8 +1,10 @@
 """Measurement of drift, in a small form."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -91,7 +93,10 @@ def test_town_is_simulated_once_and_kept(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.delattr(town_maps, "_drive")
     again = robot_maps(case, [0.0, 2.0], tmp_path)
     np.testing.assert_array_equal(again[2.0][0].content.codes, first[2.0][0].content.codes)
-    report = run_drift(DriftPlan([case], [2.0], tmp_path))
+    kept: list[int] = []
+    plan = DriftPlan([case], [2.0], tmp_path)
+    report = run_drift(plan, keep=lambda so_far: kept.append(len(so_far["rows"])))
+    assert kept == [report["rows_planned"]] == [1]
     assert report["rows"][0]["loops_wrong"] == 0
     assert report["rows"][0]["ate_after_scaled_m"] <= report["rows"][0]["ate_after_m"]
 
@@ -120,9 +125,13 @@ def test_command_ends_with_status_1_if_a_wrong_loop_is_accepted(
     }  # fmt: skip
     plans: list[DriftPlan] = []
 
-    def fake(plan: DriftPlan, tell: object) -> dict[str, object]:
+    def fake(
+        plan: DriftPlan, tell: object, keep: Callable[[dict[str, Any]], None]
+    ) -> dict[str, Any]:
         del tell
         plans.append(plan)
+        keep({"rows": [row]})
+        assert json.loads(file.read_text())["rows"] == [row], "the row is kept at once"
         return {"rows": [row]}
 
     monkeypatch.setattr(measurement, "run_drift", fake)
