@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from placecell_client import Client, CompactMap
 from placecell_client.classes import CLASSES
+from placecell_client.maps.edit import take
 
 from benchmarks.page.two_robots import TwoRobots
 from benchmarks.synthetic_maps.road_map import road_map
@@ -40,6 +41,44 @@ COLORED = """() => {
 }"""
 """Counts the pixels of the picture that are brighter than its background."""
 
+
+FAR_FROM_THE_MIDDLE = """canvas => {
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [canvas.width, canvas.height];
+  const context = copy.getContext("2d");
+  context.drawImage(canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, copy.width, copy.height);
+  const scale = canvas.clientWidth / copy.width;
+  const [found, middle] = [[], [canvas.clientWidth / 2, canvas.clientHeight / 2]];
+  for (let y = 0; y < copy.height; y += 1) {
+    for (let x = 0; x < copy.width; x += 1) {
+      const at = 4 * (y * copy.width + x);
+      const away = Math.hypot(x * scale - middle[0], y * scale - middle[1]);
+      if (Math.max(data[at], data[at + 1], data[at + 2]) > 100 && away > 40 && away < 250) {
+        found.push([x * scale, y * scale]);
+      }
+    }
+  }
+  return found;
+}"""
+"""Pixels of the picture that are drawn 40 to 250 pixels from its middle."""
+
+NAME_IS_OVER_THE_LEGEND = """() => {
+  const box = document.querySelector(".legend").getBoundingClientRect();
+  const stage = document.querySelector(".stage").getBoundingClientRect();
+  // The text is 12 pixels below the name's place.
+  const at = [box.x + box.width / 2, box.y + box.height / 2 - 20];
+  const name = document.querySelector(".labels .robot");
+  name.style.transform = `translate(${at[0] - stage.x}px, ${at[1] - stage.y}px)`;
+  const text = name.querySelector("b");
+  text.style.pointerEvents = "auto";
+  const drawn = text.getBoundingClientRect();
+  const [x, y] = [drawn.x + drawn.width / 2, drawn.y + drawn.height / 2];
+  const met = document.elementsFromPoint(x, y);
+  if (!met.some((each) => each.closest(".legend"))) throw new Error("The name is beside it.");
+  return met[0] === text;
+}"""
+"""Moves the name of a robot over the legend, and tells whether it is drawn above it."""
 
 SHAPES = "/shapes?"
 """Part of the address of each request for shapes."""
@@ -243,6 +282,45 @@ def test_click_on_a_point_selects_it(page: "Page", address: str) -> None:
     assert found is not None
     canvas.click(position={"x": found[0], "y": found[1]})
     page.get_by_role("heading", name="Segment ").wait_for()
+
+
+def test_click_on_a_shape_selects_its_segment(
+    page: "Page", address: str, two_robots: TwoRobots
+) -> None:
+    yard, row = two_robots.yard, 17
+    # The only segment is in the middle of the picture from above, and so is its own point.
+    with Client(address) as client:
+        client.put_map("single", take(yard, np.array([row])))
+    show(page, address, "single")
+    page.get_by_role("button", name="From above").click()
+    page.get_by_role("button", name="Shapes", exact=True).click()
+    page.get_by_role("status").filter(has_text=re.compile("^1 shape$")).wait_for()
+    canvas = page.get_by_role("img")
+    canvas.focus()
+    page.keyboard.press("f")
+    for _ in range(4):
+        page.keyboard.press("+")
+    wait_until(
+        page, f"({FAR_FROM_THE_MIDDLE})(document.querySelector('.stage canvas')).length > 50"
+    )
+    page.wait_for_timeout(300)  # the last picture at rest
+    found = canvas.evaluate(FAR_FROM_THE_MIDDLE)
+    x, y = found[len(found) // 2]
+    canvas.click(position={"x": x, "y": y})
+    page.get_by_role("heading", name=f"Segment {yard.ids[row]}", exact=True).wait_for()
+    with Client(address) as client:
+        client.delete_map("single")
+
+
+def test_name_of_a_robot_is_drawn_over_the_legend(page: "Page", address: str) -> None:
+    page.set_viewport_size({"width": 390, "height": 800})
+    show(page, address, "yard")
+    wait_until(page, f"({COLORED})() > 100")
+    page.locator(".legend").wait_for()
+    with Client(address) as client:
+        client.report_pose("dora", "yard", position=(1.0, 2.0, 0.0))
+    page.locator(".labels").get_by_text("dora").wait_for(state="attached")
+    assert page.evaluate(NAME_IS_OVER_THE_LEGEND)
 
 
 def test_keyboard_moves_the_view(page: "Page", address: str) -> None:
