@@ -11,6 +11,7 @@ from placecell_client import (
     Client,
     CompactMap,
     MapCopy,
+    MapFileError,
     ServiceError,
     decode_delta,
     encode_delta,
@@ -193,7 +194,10 @@ class Mirror:
         if written is None or content.has_odometry:  # such a map may hold moved captures
             return False
         before, etag = written
-        delta = delta_between(before, content, 0, 0)
+        try:
+            delta = delta_between(before, content, 0, 0)
+        except MapFileError:  # the remote map was replaced by one with other columns
+            return False
         if delta.is_whole or delta.moved is not None:
             return False
         try:

@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -204,6 +205,23 @@ def test_compacted_or_recreated_remote_map_is_copied_as_a_whole(
     site.remote.put_map("yard", map_of(random_codes(12, seed=9), manifest.model_id))
     assert mirror.step().segments == 12
     assert site.is_same()
+
+
+def test_map_with_other_columns_is_mirrored(
+    site: Site,
+    yard: Callable[..., None],
+    manifest: Manifest,  # noqa: F811
+) -> None:
+    mirror = site.mirror()
+    plain = map_of(random_codes(4), manifest.model_id)
+    count = len(plain.frame_times)
+    odometry = replace(
+        plain, frame_tracks=np.ones(count, np.uint32), frame_odometry=np.zeros((count, 7))
+    )
+    for content in (plain, odometry, plain):
+        site.remote.put_map("yard", content, if_match="*")
+        assert mirror.step().is_new
+        assert site.is_same()
 
 
 def test_maps_of_this_service_and_other_mirrors_are_not_touched(
