@@ -25,7 +25,10 @@ class FolderTarget:
     @contextmanager
     def writing(self) -> Iterator[None]:
         """Create and lock the folder; BackupError if it has other contents or is locked."""
-        self._folder.mkdir(parents=True, exist_ok=True)
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+        except FileExistsError as error:
+            raise BackupError(f"{self} is a file. Name a folder.") from error
         found = {path.name for path in self._folder.iterdir()}
         if MANIFEST not in found and (other := sorted(found - {OBJECTS, LOCK})):
             raise BackupError(
@@ -56,18 +59,22 @@ class FolderTarget:
         except FileNotFoundError as error:
             raise BackupError(f"{self._path(name)} is missing. Use another backup.") from error
 
+    def is_whole(self, name: str, data: bytes) -> bool:
+        """Return whether an object that is there has these bytes; a disk can alter them."""
+        return self._path(name).read_bytes() == data
+
     def write(self, name: str, data: bytes) -> None:
         """Write an object."""
         path = self._path(name)
         path.parent.mkdir(parents=True, exist_ok=True)
-        _replace(path, data)
+        self._replace(path, data)
 
     def replace_manifest(self, data: bytes) -> None:
         """Write the manifest, which makes the backup valid."""
         objects = self._folder / OBJECTS
         for folder in (*objects.glob("??"), *([objects] if objects.exists() else [])):
             sync_folder(folder)
-        _replace(self._folder / MANIFEST, data)
+        self._replace(self._folder / MANIFEST, data)
         sync_folder(self._folder)
 
     def remove_others(self, kept: Collection[str]) -> None:
@@ -79,12 +86,16 @@ class FolderTarget:
     def _path(self, name: str) -> Path:
         return self._folder / OBJECTS / name[:2] / name
 
-
-def _replace(path: Path, data: bytes) -> None:
-    """Write a file beside its place, and rename it when it is on disk."""
-    unfinished = path.with_name(path.name + UNFINISHED)
-    with unfinished.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-    unfinished.replace(path)
+    def _replace(self, path: Path, data: bytes) -> None:
+        """Write a file beside its place, and rename it when it is on disk."""
+        unfinished = path.with_name(path.name + UNFINISHED)
+        try:
+            with unfinished.open("wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            unfinished.unlink(missing_ok=True)
+            error.filename = error.filename or str(self)
+            raise
+        unfinished.replace(path)

@@ -45,7 +45,11 @@ class BackupWriter:
             OSError: the place cannot be written.
         """
         with self._target.writing():
-            if before := manifest_of(self._target):
+            try:
+                before = manifest_of(self._target)
+            except BackupError as error:
+                raise BackupError(f"{error} A new backup needs a new target.") from error
+            if before:
                 present = self._target.objects()
                 self._reused = {
                     name for name, size in before.objects.items() if present.get(name) == size
@@ -82,7 +86,10 @@ class BackupWriter:
         for data in objects:
             name = name_of(data)
             names.append(name)
-            if name not in self._objects and name not in self._reused:
+            is_there = name in self._objects or (
+                name in self._reused and self._target.is_whole(name, data)
+            )
+            if not is_there:
                 self._target.write(name, data)
                 self.new_bytes += len(data)
             self._objects[name] = len(data)

@@ -1,6 +1,8 @@
 """Backups in folders and buckets: they keep every byte, and a killed one changes nothing."""
 
+import errno
 import json
+import os
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC
@@ -195,6 +197,39 @@ def test_altered_object_is_noticed(
     assert BackupSnapshot(folder).faults() == []
 
 
+def test_next_backup_mends_an_altered_object(store: SqliteMapStore, folder: FolderTarget) -> None:
+    fill(store)
+    back_up(store, folder)
+    whole = BackupSnapshot(folder)
+    (name,) = next(log for log in map(whole._log, whole._logs) if log.head.name == "yard").base
+    path = Path(str(folder)) / "objects" / name[:2] / name
+    data = bytearray(path.read_bytes())
+    data[7] ^= 1
+    path.write_bytes(data)
+    assert back_up(store, folder) == len(data)
+    assert BackupSnapshot(folder).faults() == []
+
+
+def test_full_disk_names_the_folder_and_leaves_no_part(
+    store: SqliteMapStore, folder: FolderTarget, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fill(store)
+    fsync = os.fsync
+
+    def full(number: int) -> None:
+        fsync(number)
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left") as raised:
+        back_up(store, folder)
+    assert raised.value.filename == str(folder)
+    assert folder.objects() == {}
+    monkeypatch.undo()
+    back_up(store, folder)
+    assert BackupSnapshot(folder).faults() == []
+
+
 def test_logs_that_disagree_are_noticed(store: SqliteMapStore, folder: FolderTarget) -> None:
     fill(store)
     back_up(store, folder)
@@ -230,6 +265,8 @@ def test_manifest_is_checked(store: SqliteMapStore, folder: FolderTarget, tmp_pa
         file.write_text(wrong)
         with pytest.raises(BackupError, match=words):
             BackupSnapshot(folder)
+        with pytest.raises(BackupError, match="A new backup needs a new target"):
+            back_up(store, folder)
 
 
 def test_folder_with_other_files_and_a_second_backup_are_refused(
