@@ -158,7 +158,7 @@ def _database(named: str | None) -> str:
     from service.backup.databases import database_of
     from service.core.settings import Settings
 
-    return named or database_of(Settings())
+    return database_of(Settings()) if named is None else named
 
 
 @contextmanager

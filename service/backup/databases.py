@@ -1,5 +1,6 @@
 """Stores by their name: the data directory of a service, or the URL of a PostgreSQL database."""
 
+import re
 import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -14,6 +15,11 @@ from service.maps.sqlite.store import FILE, LAYOUT
 from service.maps.store import MapStore, StoreSnapshot
 from service.maps.stores import open_store
 
+OTHER_ADDRESS = re.compile(
+    r"[A-Za-z][A-Za-z0-9+.-]+:/|\s*(dbname|host|hostaddr|password|port|service|user)\s*="
+)
+"""Beginning of what is neither a folder nor the URL of a database: another URL, or `host=...`."""
+
 
 def database_of(settings: Settings) -> str:
     """Return the name of the store that some settings select."""
@@ -21,9 +27,27 @@ def database_of(settings: Settings) -> str:
 
 
 def shown(database: str) -> str:
-    """Return the name of a store without its password."""
+    """Return the name of a store without user, password and parameters."""
     scheme, separator, rest = database.partition("://")
-    return f"{scheme}{separator}{rest.rpartition('@')[2]}" if separator else database
+    if not separator:
+        return database
+    return f"{scheme}{separator}{rest.rpartition('@')[2].partition('?')[0]}"
+
+
+def check_name(database: str) -> None:
+    """Check that a name is that of a store; ValueError, which shows no password, if it is not."""
+    if not database.strip():
+        raise ValueError(
+            "The name of the database is empty; maybe a variable of the shell is not set. Name the "
+            "data directory of a service, or postgresql://HOST/DATABASE."
+        )
+    found = OTHER_ADDRESS.match(database)
+    if found and not DATABASE_URL.match(database):
+        raise ValueError(
+            f"Invalid database: found a name that begins with {database[: found.end()]!r}. "
+            "Expected the data directory of a service, or "
+            "postgresql://USER:PASSWORD@HOST:PORT/DATABASE."
+        )
 
 
 @contextmanager
@@ -35,10 +59,12 @@ def reading(database: str, owns: bool = False) -> Iterator[StoreSnapshot]:
         owns: whether no service may use a data directory meanwhile.
 
     Raises:
+        ValueError: the name is not that of a store.
         FileNotFoundError: the data directory has no database.
         StoreLockedError: a service uses the data directory.
         StoreError: the store cannot be used; the message says what to do.
     """
+    check_name(database)
     with ExitStack() as opened:
         if DATABASE_URL.match(database):
             store = opened.enter_context(_postgres(database))
@@ -63,10 +89,12 @@ def writing(database: str) -> Iterator[MapStore]:
         database: URL of a PostgreSQL database, or data directory; the directory is created.
 
     Raises:
-        ValueError: a file has another name than that of a data directory's database.
+        ValueError: the name is not that of a store, or a file has another name than that of a
+            data directory's database.
         StoreLockedError: a service uses the data directory.
         StoreError: the store cannot be used; the message says what to do.
     """
+    check_name(database)
     if DATABASE_URL.match(database):
         with _postgres(database) as store:
             yield store
@@ -79,6 +107,13 @@ def writing(database: str) -> Iterator[MapStore]:
         )
     with open_store(Settings(database=SecretStr(""), data_dir=file.parent)) as store:
         yield store
+
+
+def is_same(one: str, other: str) -> bool:
+    """Return whether two names are of one store."""
+    if DATABASE_URL.match(one) or DATABASE_URL.match(other):
+        return shown(one) == shown(other)
+    return _file_of(one).resolve() == _file_of(other).resolve()
 
 
 @contextmanager

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from service.backup.counting import CountedSnapshot
-from service.backup.databases import reading, shown, writing
+from service.backup.databases import check_name, is_same, reading, shown, writing
 from service.maps.store import Annotation, MapHead, MapHistory, OwnedIds, StoreSnapshot
 
 
@@ -55,10 +55,19 @@ def migrate(
         on_bytes: is called with each number of bytes that were read.
 
     Raises:
-        MigrationError: the target has other maps; or the copy differs, and the target is empty.
+        ValueError: a name is not that of a store.
+        MigrationError: both names are of one store; the target has other maps; or the copy
+            differs, and the target is empty.
         StoreLockedError: a service uses one of the two.
         StoreError: one of the two cannot be used.
     """
+    for database in (source, target):
+        check_name(database)
+    if is_same(source, target):
+        raise MigrationError(
+            f"{shown(source)} is both the source and the target. Name another target. Nothing was "
+            "changed."
+        )
     with reading(source, owns=True) as maps, writing(target) as store:
         counted = CountedSnapshot(maps, on_bytes)
         # All is read once to copy it, and once to compare it.

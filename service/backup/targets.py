@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Protocol
 
 from service.backup.bucket import BucketTarget
+from service.backup.databases import OTHER_ADDRESS
 from service.backup.folder import FolderTarget
 from service.backup.format import MANIFEST, BackupError, BackupManifest, decode_manifest
 
@@ -34,6 +35,9 @@ class BackupTarget(Protocol):
     def read(self, name: str) -> bytes:
         """Return an object; BackupError if it is missing."""
 
+    def is_whole(self, name: str, data: bytes) -> bool:
+        """Return whether an object that is there has these bytes, as far as that is known."""
+
     def write(self, name: str, data: bytes) -> None:
         """Write an object."""
 
@@ -61,8 +65,9 @@ def target_at(place: str, endpoint_url: str | None = None) -> BackupTarget:
         BackupError: the extra `s3` is not installed.
     """
     if not place.startswith(BUCKET):
-        if "://" in place:
-            raise ValueError(f"Invalid place {place!r}: expected a folder or s3://BUCKET/PREFIX.")
+        if not place.strip() or OTHER_ADDRESS.match(place):
+            told = place.rpartition("@")[2]  # it may hold a password
+            raise ValueError(f"Invalid place {told!r}: expected a folder or s3://BUCKET/PREFIX.")
         return FolderTarget(Path(place))
     bucket, _, prefix = place.removeprefix(BUCKET).partition("/")
     if not bucket:

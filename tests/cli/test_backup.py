@@ -95,8 +95,51 @@ def test_errors_say_what_to_do(data_dir: Path, tmp_path: Path) -> None:
     copy = tmp_path / "copy.sqlite"
     copy.write_bytes((data_dir / FILE).read_bytes())
     assert "Name the folder" in bad("restore", tmp_path / "copy", "--database", copy)
+    assert "is a file. Name a folder" in bad("backup", copy, "--database", data_dir)
+    told = bad("migrate", "--from", data_dir, "--to", data_dir / FILE)
+    assert "both the source and the target" in told
     (data_dir / FILE).write_bytes(b"no database")
     assert "maps.sqlite" in bad("backup", tmp_path / "copy", "--database", data_dir)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "mysql://ann:hidden@host/maps",
+        "PostgreSQL://ann:hidden@host/maps",
+        "postgresql+psycopg://ann:hidden@host/maps",
+        "postgresql:/ann:hidden@host/maps",
+        "host=127.0.0.1 password=hidden",
+        "password=hidden",
+        "postgresql://ann:pass@hidden@127.0.0.1:1/maps",
+        "postgresql://ann:hidden/2@127.0.0.1:1/maps",
+        "postgresql://ann:pass/hidden@127.0.0.1:1/maps",
+        "postgresql://ann:hidden@127.0.0.1:1/maps?none=hidden",
+        "",
+    ],
+)
+def test_wrong_name_of_a_database_is_refused_and_shows_no_password(
+    data_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    good("backup", "copy", "--database", data_dir)
+    before = sorted(tmp_path.rglob("*"))
+    for words in (
+        ("migrate", "--from", data_dir, "--to", name),
+        ("migrate", "--from", name, "--to", "other"),
+        ("backup", "second", "--database", name),
+        ("restore", "copy", "--database", name, "--replace"),
+    ):
+        told = bad(*words)
+        assert "hidden" not in told
+        assert "postgresql://" in told
+    assert [path for path in sorted(tmp_path.rglob("*")) if "second" not in str(path)] == before
+
+
+def test_migrate_to_the_source_itself_is_refused(postgres_database: str, data_dir: Path) -> None:
+    good("migrate", "--from", data_dir, "--to", postgres_database)
+    told = bad("migrate", "--from", postgres_database, "--to", f"{postgres_database}?options=")
+    assert "both the source and the target" in told
 
 
 def test_migrate_moves_all_and_refuses_a_full_target(data_dir: Path, tmp_path: Path) -> None:

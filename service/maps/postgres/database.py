@@ -65,6 +65,11 @@ NETWORK = {
 }
 """Parameters of connections; the URL can state others."""
 
+INVALID_URL = (
+    "The URL of the database is invalid. Expected postgresql://USER:PASSWORD@HOST:PORT/DATABASE. "
+    "Write the signs @, / and % of a password as %40, %2F and %25"
+)
+
 SYNC_CANCELED = {"57014", "57P01"}
 """Codes of the warning that a commit did not wait for its synchronous standby."""
 
@@ -207,11 +212,10 @@ class PostgresDatabase:
         try:
             stated: Mapping[str, Any] = conninfo.conninfo_to_dict(url)
         except psycopg.ProgrammingError as error:
-            raise StoreError(
-                "failing",
-                "The URL of the database is invalid. Expected "
-                "postgresql://USER:PASSWORD@HOST:PORT/DATABASE",
-            ) from error
+            raise StoreError("failing", INVALID_URL) from error
+        if not _has_plain_hosts(stated):
+            # The driver would show these parts, which may be of the password.
+            raise StoreError("failing", INVALID_URL)
         self._parameters = conninfo.make_conninfo(**NETWORK | dict(stated))
         self._last_error: psycopg.Error | None = None
         self._watchdog = Watchdog()
@@ -398,6 +402,14 @@ class _Attempt:
     """State of a run of a transaction."""
 
     is_committing = False
+
+
+def _has_plain_hosts(stated: Mapping[str, Any]) -> bool:
+    """Return whether hosts and ports have no signs of a password that was not encoded."""
+    ports = str(stated.get("port") or "").split(",")
+    return "@" not in str(stated.get("host") or "") and all(
+        not port or port.isdecimal() for port in ports
+    )
 
 
 def _connecting(note: Callable[[psycopg.Error | None], None]) -> type[Connection]:
