@@ -1,6 +1,7 @@
 """Connections to PostgreSQL with bounded waits, and transactions that survive a lost connection."""
 
 import logging
+import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
@@ -70,6 +71,9 @@ INVALID_URL = (
     "Write the signs @, / and % of a password as %40, %2F and %25"
 )
 
+TOLD_SECONDS = 10.0
+"""Seconds between two log lines about connections that cannot be made."""
+
 SYNC_CANCELED = {"57014", "57P01"}
 """Codes of the warning that a commit did not wait for its synchronous standby."""
 
@@ -77,11 +81,25 @@ logger = logging.getLogger("placecell")
 
 
 class PlainWords(logging.Filter):
-    """Tells in plain words what the pool logs about a connection, without the driver's object."""
+    """Tells in plain words what the pool logs about connections, without the driver's objects."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._told_at = -math.inf
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Change a record; return True, so that it is logged."""
+        """Change a record; return whether it is logged: a failure to connect not at each try."""
         arguments = record.args if isinstance(record.args, tuple) else ()
+        message = str(record.msg)
+        if message.startswith("reconnection attempt"):
+            return False  # the failed tries say why
+        if message.startswith("error connecting"):
+            now = time.monotonic()
+            if now < self._told_at + TOLD_SECONDS:
+                return False
+            self._told_at = now
+            record.msg = "The database accepts no connection: %s"
+            record.args = (" ".join(f"{arguments[-1]}".split()),)
         if any(isinstance(each, psycopg.Connection) for each in arguments):
             record.msg = "A connection to the database was lost. Another one replaces it."
             record.args = ()

@@ -1,7 +1,8 @@
-"""Settings of the server on which the promise of a write depends."""
+"""Settings of the server, and rights of its user, on which writes depend."""
 
 from collections.abc import Iterator
 
+from service.maps.postgres.tables import SCHEMA
 from service.maps.sql.rows import Rows
 
 PROMISE = "Until then, an acknowledged write can be lost when the machine of the primary fails."
@@ -35,4 +36,20 @@ def durability_warnings(rows: Rows) -> Iterator[str]:
         yield (
             "No synchronous standby is connected to PostgreSQL, so writes wait for one. "
             "Start a standby."
+        )
+
+
+def right_warnings(rows: Rows) -> Iterator[str]:
+    """Yield a warning if the user may not write the tables."""
+    user, may_write = rows.execute(
+        "SELECT current_user, bool_and(has_table_privilege(oid, 'INSERT') "
+        "AND has_table_privilege(oid, 'UPDATE') AND has_table_privilege(oid, 'DELETE')) "
+        "FROM pg_class WHERE relkind = 'r' AND relname <> 'version' "
+        "AND relnamespace = to_regnamespace(?)",
+        (SCHEMA,),
+    ).fetchone()
+    if not may_write:
+        yield (
+            f"The user {user!r} of the database may read the maps and not write them. Use the "
+            f"owner of the schema {SCHEMA}, or grant INSERT, UPDATE and DELETE on its tables."
         )

@@ -13,9 +13,21 @@ _KINDS: Sequence[tuple[tuple[str, ...], Trouble, str]] = (
     (("55P03", "57014", "40001", "40P01"), "busy", "another service holds the map's row"),
     (("XX001", "XX002"), "damaged", "the database is damaged"),
     (("42P01", "3F000"), "moved", "a table was removed while the service ran"),
+    (
+        ("42501",),
+        "failing",
+        "the user of the database lacks a right. Use the owner of its schema placecell, or a user "
+        "that may create it",
+    ),
     (("08", "57P", "53300", "25P03"), "unreachable", "the database cannot be reached"),
 )
 """Beginnings of SQLSTATE codes, the kind of the error, and its meaning."""
+
+
+NOT_CONNECTED = ("connection failed", "failed to resolve", "connection timeout")
+"""Beginnings of the driver's messages when a connection could not be made."""
+
+CHECK = ". Check the URL of the database (PLACECELL_DATABASE, --database), and that its server runs"
 
 
 def is_lost(error: psycopg.Error) -> bool:
@@ -37,7 +49,9 @@ def translated(error: psycopg.Error) -> StoreError:
     """Return the store's error for one of PostgreSQL."""
     kind, meaning = _meaning_of(error)
     told = " ".join(str(error).split())
-    return StoreError(kind, f"PostgreSQL: {meaning} ({error.sqlstate or 'no code'}): {told:.300}")
+    code = f" ({error.sqlstate})" if error.sqlstate else ""
+    remedy = CHECK if not code and told.startswith(NOT_CONNECTED) else ""
+    return StoreError(kind, f"PostgreSQL: {meaning}{code}: {told:.300}{remedy}")
 
 
 def _meaning_of(error: psycopg.Error) -> tuple[Trouble, str]:

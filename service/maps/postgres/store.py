@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from service.maps.postgres.database import READ_IDLE_SECONDS, PostgresDatabase
-from service.maps.postgres.durability import durability_warnings
+from service.maps.postgres.durability import durability_warnings, right_warnings
 from service.maps.postgres.tables import (
     CHANNEL,
     CREATION_LOCK,
@@ -94,7 +94,7 @@ class PostgresStore:
                     with connection.transaction():
                         if extend(rows, layout):
                             logger.info("created tables of version %s.%s", *layout.version)
-                for warning in durability_warnings(rows):
+                for warning in (*right_warnings(rows), *durability_warnings(rows)):
                     logger.warning("%s", warning)
             self._database.open()
         except StoreError:

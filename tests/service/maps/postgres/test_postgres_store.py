@@ -309,6 +309,46 @@ def test_lost_connection_is_logged_in_plain_words(
     assert "psycopg" not in " ".join(each.getMessage() for each in caplog.records)
 
 
+def test_failed_connections_are_logged_once_and_in_one_line(
+    caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pool = logging.getLogger("psycopg.pool")
+    monkeypatch.setattr(pool, "filters", [database.PlainWords()])
+    for _ in range(3):
+        pool.warning("error connecting in %r: %s", "pool-1", OSError("refused\n\tIs it running?"))
+        pool.warning("reconnection attempt in pool %r failed after %s sec", "pool-1", 2.0)
+    assert [each.getMessage() for each in caplog.records] == [
+        "The database accepts no connection: refused Is it running?"
+    ]
+
+
+def test_user_without_rights_is_told_what_to_do(
+    store: PostgresStore,
+    postgres_server: PostgresServer,
+    postgres_database: str,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    store.create("yard", b"file", NOTE, 0)
+    reader = make_conninfo(postgres_database, user="reader")
+    postgres_server.execute("CREATE ROLE reader LOGIN")
+    try:
+        with pytest.raises(StoreError, match=r"lacks a right. Use the owner .*42501"):
+            PostgresStore(reader)
+        with psycopg.connect(postgres_database) as owner:
+            owner.execute(f"GRANT USAGE ON SCHEMA {SCHEMA} TO reader")
+            owner.execute(f"GRANT SELECT ON ALL TABLES IN SCHEMA {SCHEMA} TO reader")
+        with PostgresStore.opened(reader) as reading:
+            assert [head.name for head in reading.heads()] == ["yard"]
+        assert "The user 'reader' of the database may read the maps and not write" in caplog.text
+        caplog.clear()
+        with PostgresStore.opened(postgres_database):
+            assert "may read" not in caplog.text
+    finally:
+        with psycopg.connect(postgres_database) as owner:
+            owner.execute("DROP OWNED BY reader")
+        postgres_server.execute("DROP ROLE reader")
+
+
 def test_commit_is_found_although_another_service_wrote_after_it(
     store: PostgresStore, postgres_database: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -607,10 +647,13 @@ def test_wrong_url_is_refused() -> None:
 
 def test_service_without_its_database_does_not_start(start: Any) -> None:
     with (
-        pytest.raises(StartError, match=r"^database: PostgreSQL: the database cannot be reached"),
+        pytest.raises(StartError, match="Check the URL of the database") as raised,
         start(database="postgresql://ann:hidden@127.0.0.1:1/maps"),
     ):
         pass
+    told = str(raised.value)
+    assert told.startswith("database: PostgreSQL: the database cannot be reached: connection")
+    assert "hidden" not in told
 
 
 def test_missing_package_is_named_with_the_command(
