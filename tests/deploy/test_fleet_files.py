@@ -11,6 +11,7 @@ import yaml
 
 from service.app import create_app
 from service.core.settings import Settings
+from service.maps.stores import OTHER_CONNECTIONS
 from tests.deploy.test_deploy import (
     COMPOSED,
     CONTAINER,
@@ -31,6 +32,7 @@ KUBERNETES = {
 }
 POD = KUBERNETES["Deployment"]["spec"]["template"]
 REPLICA = POD["spec"]["containers"][0]
+FLEET_DOCS = (DEPLOY.parent / "docs" / "how-to" / "fleet.md").read_text()
 HAPROXY = (FLEET / "haproxy.cfg").read_text()
 
 
@@ -91,6 +93,53 @@ def test_standby_copies_the_first_server() -> None:
         assert (FLEET / source).is_file() if source[0] == "." else source in COMPOSE["volumes"], (
             target
         )
+
+
+def test_interrupted_copy_of_the_primary_is_made_anew(tmp_path: Path) -> None:
+    programs = tmp_path / "bin"
+    programs.mkdir()
+    for name, lines in {
+        "chown": "",
+        "gosu": 'shift; exec "$@"',
+        "hostname": "echo db-2",
+        "docker-entrypoint.sh": 'echo "started $*"',
+        "pg_basebackup": 'mkdir "$2" && echo 18 > "$2/PG_VERSION" && [ ! -e "$FAULT" ] '
+        '&& touch "$2/standby.signal"',
+    }.items():
+        (programs / name).write_text(f"#!/bin/sh\n{lines}\n")
+        (programs / name).chmod(0o755)
+    data, fault = tmp_path / "18" / "docker", tmp_path / "fault"
+    environment = {
+        "PATH": f"{programs}:/usr/bin:/bin",
+        "PGDATA": str(data),
+        "PGPASSWORD": "secret",
+        "FAULT": str(fault),
+    }
+
+    def start(primary: str) -> str:
+        done = subprocess.run(
+            ["sh", str(FLEET / "postgres" / "standby.sh"), primary, "postgres", "-c", "x=1"],
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=60,
+        )
+        return done.stdout
+
+    assert start("") == "started postgres -c x=1\n"
+    assert not data.exists()
+    fault.touch()
+    assert start("postgres-1") == ""
+    assert not data.exists()
+    fault.unlink()
+    for _ in range(2):
+        assert start("postgres-1") == "started postgres -c x=1\n"
+        assert sorted(each.name for each in data.iterdir()) == [
+            "PG_VERSION",
+            "postgresql.auto.conf",
+            "standby.signal",
+        ]
 
 
 def test_commit_waits_for_the_standby() -> None:
@@ -189,6 +238,20 @@ def test_replicas_are_not_stopped_all_at_once() -> None:
     assert KUBERNETES["Service"]["spec"]["selector"] == labels
     # The autoscaler alone sets the number of replicas.
     assert "replicas" not in deployment
+
+
+def test_database_has_connections_for_all_replicas() -> None:
+    limits = Settings().limits
+    # One more listens.
+    each = limits.uploads + limits.alignments + OTHER_CONNECTIONS + 1
+    assert "Each replica takes up to 21 connections" in FLEET_DOCS
+    assert each == 21
+    scaler = KUBERNETES["HorizontalPodAutoscaler"]["spec"]
+    surge = KUBERNETES["Deployment"]["spec"]["strategy"]["rollingUpdate"]["maxSurge"]
+    parameters = KUBERNETES["Cluster"]["spec"]["postgresql"]["parameters"]
+    others = 20  # the operator, the standbys, backups
+    assert int(parameters["max_connections"]) >= each * (scaler["maxReplicas"] + surge) + others
+    assert each * len(REPLICAS) + others <= 100  # PostgreSQL's default
 
 
 def test_pods_get_the_database_of_the_cluster() -> None:
