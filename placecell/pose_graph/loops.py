@@ -53,11 +53,14 @@ class GraphMap:
         frames: the captures.
         centroids: float64 (n, 3), meters, in the map.
         captures: int64 (n,), capture of each segment.
+        sides: float64 (n, 2), meters, horizontal sides of each segment's box along the axes of the
+            odometry frame, 0 if not known; None if none is known.
     """
 
     frames: GraphFrames
     centroids: Float64
     captures: Int64
+    sides: Float64 | None = None
 
     def as_driven(self) -> "GraphMap":
         """Return the map with the captures of each track at the poses of their odometry."""
@@ -73,8 +76,10 @@ class GraphMap:
         before = self.frames
         offsets = self.centroids - before.positions[self.captures]
         turned = rotated(offsets, (yaws - before.yaws)[self.captures])
-        return GraphMap(
-            before.moved(positions, yaws), positions[self.captures] + turned, self.captures
+        return replace(
+            self,
+            frames=before.moved(positions, yaws),
+            centroids=positions[self.captures] + turned,
         )
 
 

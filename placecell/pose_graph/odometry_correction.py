@@ -9,6 +9,10 @@ The centroid of a segment also moves as the robot passes it, because other parts
 moves by a similar amount for segments that are passed at a similar angle, so that amount is
 estimated along with the errors. Segments at the height of the sensor or above, seen from nearly the
 same direction twice, hardly move; they give the level.
+
+A view shows the points of about a second. If the odometry turned wrongly in this time, only the
+later points moved with it, so each error counts by the share of the points that came after it. If
+the box of a segment changes, its centroid moves too: such a pair counts less.
 """
 
 from dataclasses import replace
@@ -31,7 +35,7 @@ from placecell.pose_graph.frames import (
 from placecell.pose_graph.loops import GraphMap
 from placecell.pose_graph.parameters import PoseGraphParameters
 
-ROUNDS = ((1.0, 0.3), (0.7, 0.15), (0.5, 0.1))
+ROUNDS = ((1.0, 0.3), (0.7, 0.2), (0.7, 0.15))
 """Rounds of the estimation: largest distance between two views of a segment, and the standard
 deviation of their distance, meters. Each round pairs the views in the map that the last one
 corrected."""
@@ -42,9 +46,32 @@ ITERATIONS = 6
 BETWEEN = (6.0, 16.0)
 """Way between two views, meters: those before the next one, which follows after 10 m."""
 
-DEVIATION = 0.1
-"""Standard deviation of the distance between two views, by which they count against the prior of
-the odometry, meters."""
+DEVIATION = 0.07
+"""Standard deviation of the distance between two views of a segment whose box stays the same,
+meters."""
+
+PARTLY = 0.3
+"""Standard deviation of the distance between two views, as a share of the change of the box."""
+
+UNKNOWN = 0.25
+"""Change of a box that the map does not state, meters."""
+
+GATHERED = 1.0
+"""Time in which the points of a view were seen, seconds: ten turns of a sensor. If the robot turns
+or drives with an error in this time, only the later points move with it."""
+
+MOST_GATHERED = 30.0
+"""Largest way on which the points of a view were seen, meters: times may be wrong."""
+
+HEADING = 0.1
+"""Standard deviation of the heading after one meter in the first round, degrees. The later rounds
+take the one that the first round found."""
+
+HEADINGS = (0.03, 0.3)
+"""Smallest and largest such deviation, degrees."""
+
+HEADING_WAY = 50.0
+"""Way after which the found errors of the heading tell its deviation, meters."""
 
 PASSED = (0.4, 0.8, 1.2)
 """Changes of the direction to a segment, as the length of the difference of the unit vectors, that
@@ -70,7 +97,8 @@ def with_corrected_odometry(graph: GraphMap, parameters: PoseGraphParameters) ->
     """Return a map whose odometry is corrected, with its captures at the corrected poses.
 
     A track stays as it is if its odometry is stated to be better than the correction makes it
-    (`PoseGraphParameters.drift_corrected`). Other stated variances of height and heading stay.
+    (`PoseGraphParameters.drift_corrected`). Other stated variances of the height stay, and those of
+    the heading that are smaller than after the correction.
 
     Args:
         graph: the map, with its captures at the poses of their odometry.
@@ -87,28 +115,57 @@ def with_corrected_odometry(graph: GraphMap, parameters: PoseGraphParameters) ->
         return graph
     errors = np.zeros((len(one), 2))
     moves = np.zeros(len(PASSED) + 1)
+    heading = HEADING
     now = graph
-    for apart, deviation in ROUNDS:
+    for number, (apart, deviation) in enumerate(ROUNDS):
         current().check()
         pairs = repeated_views(now, tracks, apart)
         if len(pairs) < LEAST_PAIRS:
             return graph
-        errors, moves = _estimated(now, pairs, errors, moves, deviation, parameters)
+        errors, moves = _estimated(now, pairs, errors, moves, deviation, heading, parameters)
         errors[~np.isin(odometry.tracks[one], tracks)] = 0.0
         now = _corrected(graph, errors)
-    corrected = np.isin(odometry.tracks, tracks)
-    growth = [
-        parameters.drift_corrected**2,
-        parameters.drift_height**2,
-        np.radians(parameters.drift_yaw) ** 2,
-    ]
-    variances = np.where(
-        corrected[:, None], frames.ways[:, None] * np.array(growth), odometry.variances
-    )
-    kept = corrected & ~np.isin(odometry.tracks, odometry.tracks[one[~_are_stated(frames)]])
-    variances[kept, 1:] = odometry.variances[kept, 1:]
+        if number == 0:
+            heading = _found_heading(frames, errors[:, 1], tracks)
+    variances = _corrected_variances(frames, tracks, parameters)
     odometry = replace(now.frames.odometry, variances=variances)
-    return GraphMap(replace(now.frames, odometry=odometry), now.centroids, now.captures)
+    return replace(now, frames=replace(now.frames, odometry=odometry))
+
+
+def _corrected_variances(
+    frames: GraphFrames, tracks: Int64, parameters: PoseGraphParameters
+) -> Float64:
+    """Return the accumulated variances of the odometry after the correction, float64 (f, 3).
+
+    Args:
+        frames: the captures.
+        tracks: tracks that were corrected.
+        parameters: constants of the pose graph.
+    """
+    one, other = frames.links.T
+    odometry = frames.odometry
+    way = (frames.ways[other] - frames.ways[one])[:, None]
+    growth = np.array([parameters.drift_height, np.radians(parameters.drift_yaw)]) ** 2
+    is_stated = _are_stated(frames)[:, None]
+    stated = odometry.variances[other] - odometry.variances[one]
+    step = np.empty((len(one), 3))
+    step[:, :1] = parameters.drift_corrected**2 * way
+    step[:, 1:] = np.where(is_stated, stated[:, 1:], growth * way)
+    yaw = np.radians(parameters.drift_yaw_corrected) ** 2 * way[:, 0]
+    step[:, 2] = np.minimum(step[:, 2], yaw)
+    steps = np.zeros((len(frames), 3))
+    steps[other] = step
+    order = frames.order
+    variances = np.empty_like(steps)
+    variances[order] = _summed(steps[order], _begins(frames))
+    corrected = np.isin(odometry.tracks, tracks)
+    return np.where(corrected[:, None], variances, odometry.variances)
+
+
+def _begins(frames: GraphFrames) -> Bool:
+    """Return whether a track begins at each capture, in the order of `GraphFrames.order`."""
+    tracks = frames.odometry.tracks[frames.order]
+    return np.concatenate([[True], (tracks[1:] != tracks[:-1]) | (tracks[1:] == NO_TRACK)])
 
 
 def _are_stated(frames: GraphFrames) -> Bool:
@@ -181,6 +238,7 @@ def _estimated(
     errors: Float64,
     moves: Float64,
     deviation: float,
+    heading: float,
     parameters: PoseGraphParameters,
 ) -> tuple[Float64, Float64]:
     """Estimate the errors of the odometry from pairs of views.
@@ -191,36 +249,45 @@ def _estimated(
         errors: float64 (links, 2), present scale errors, and heading errors, radians.
         moves: float64 (groups,), present amounts by which centroids move, meters.
         deviation: standard deviation of right pairs, meters.
+        heading: standard deviation of the heading after one meter, degrees.
         parameters: constants of the pose graph.
 
     Returns:
         The estimated errors and amounts.
     """
-    by_errors = _effects(graph, pairs)
+    frames = graph.frames
     ahead = _ahead(graph, pairs)
     by_moves = _movements(graph, pairs, ahead)
-    effects = hstack([by_errors, by_moves]).tocsr()
-    prior = _prior(graph.frames, len(moves), parameters)
+    effects = hstack([_effects(graph, pairs, _gathered(frames)), by_moves]).tocsr()
+    prior = _prior(frames, len(moves), heading, parameters)
+    variances = _variances(graph, pairs)
     unknown = np.concatenate([errors.T.ravel(), moves])
     apart = np.diff(graph.centroids[pairs], axis=1)[:, 0, :2].T.ravel()
-    # Without the present correction:
-    seen = apart - LEVEL * ahead.T.ravel() + by_errors @ unknown[: errors.size]
+    # Without the present correction, which moves each view with its capture:
+    moved = _effects(graph, pairs, np.zeros(len(frames))) @ unknown[: errors.size]
+    seen = apart - LEVEL * ahead.T.ravel() + moved
     for _ in range(ITERATIONS):
         current().check()
         off = (seen - effects @ unknown).reshape(2, -1)
         kept = np.exp(-(off**2).sum(axis=0) / (2 * deviation**2))
-        weights = np.tile(kept / DEVIATION**2, 2)
+        weights = np.tile(kept / variances, 2)
         normal = effects.T @ effects.multiply(weights[:, None]) + prior
         unknown = spsolve(normal.tocsc(), effects.T @ (weights * seen))
     return unknown[: errors.size].reshape(2, -1).T.copy(), unknown[errors.size :]
 
 
-def _effects(graph: GraphMap, pairs: Int64) -> csr_matrix:
+def _effects(graph: GraphMap, pairs: Int64, gathered: Float64) -> csr_matrix:
     """Return how the errors of links move the later view of each pair, (2 p, 2 links).
 
     Rows are the x of all pairs, then the y; columns are the scale errors of all links, then the
-    heading errors. The error of a scale moves the view along the step of its link. The error of a
-    heading turns it about the end of its link.
+    heading errors. The error of a scale moves a view along the step of its link. The error of a
+    heading turns it about the end of its link. Both move a view by the share of its points that
+    were seen after the link, and so the earlier view, too.
+
+    Args:
+        graph: the map.
+        pairs: int64 (p, 2), pairs of views, the earlier one first.
+        gathered: float64 (f,), way on which the points of each capture were seen, meters.
     """
     frames = graph.frames
     links = frames.links
@@ -228,14 +295,29 @@ def _effects(graph: GraphMap, pairs: Int64) -> csr_matrix:
     places[frames.order] = np.arange(len(frames))
     link_at = np.zeros(len(frames), dtype=np.int64)
     link_at[places[links[:, 0]]] = np.arange(len(links))
-    first, last = places[graph.captures[pairs]].T
+    # From the link on which the first point of the earlier view was seen to the later view:
+    ways = frames.ways[frames.order]
+    _, numbers = np.unique(frames.odometry.tracks[frames.order], return_inverse=True)
+    along = ways + numbers.ravel() * (ways.max(initial=0.0) + 1.0)
+    views = graph.captures[pairs]
+    one, last = places[views].T
+    begins = np.searchsorted(numbers.ravel(), numbers.ravel()[one])
+    first = np.searchsorted(along, along[one] - gathered[views[:, 0]], side="right") - 1
+    first = np.clip(first, begins, one)
     counts = last - first
     pair = np.repeat(np.arange(len(pairs)), counts)
-    offsets = np.arange(len(pair)) - np.repeat(np.cumsum(counts) - counts, counts)
-    link = link_at[first[pair] + offsets]
+    place = first[pair] + np.arange(len(pair)) - np.repeat(np.cumsum(counts) - counts, counts)
+    middle = (ways[place] + ways[place + 1]) / 2
+    shares = []
+    for view, at in ((views[pair, 0], one[pair]), (views[pair, 1], last[pair])):
+        after = (frames.ways[view] - middle) / np.maximum(gathered[view], LEAST_WAY)
+        at_once = np.where(place < at, 1.0, 0.0)
+        shares.append(np.where(gathered[view] > LEAST_WAY, after.clip(0.0, 1.0), at_once))
+    share = (shares[1] - shares[0])[:, None]
+    link = link_at[place]
     spots = frames.positions[:, :2]
-    step = (spots[links[:, 1]] - spots[links[:, 0]])[link]
-    arm = graph.centroids[pairs[pair, 1], :2] - spots[links[link, 1]]
+    step = share * (spots[links[:, 1]] - spots[links[:, 0]])[link]
+    arm = share * (graph.centroids[pairs[pair, 1], :2] - spots[links[link, 1]])
     size = (2 * len(pairs), 2 * len(links))
     rows = [pair, pair + len(pairs), pair, pair + len(pairs)]
     columns = [link, link, link + len(links), link + len(links)]
@@ -243,6 +325,52 @@ def _effects(graph: GraphMap, pairs: Int64) -> csr_matrix:
     return csr_matrix(
         (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=size
     )
+
+
+def _gathered(frames: GraphFrames) -> Float64:
+    """Return the way on which the points of each capture were seen, meters, float64 (f,)."""
+    one, other = frames.links.T
+    seconds = frames.times[other] - frames.times[one]
+    meters = frames.ways[other] - frames.ways[one]
+    speed = np.divide(meters, seconds, out=np.zeros(len(one)), where=seconds > 0)
+    speeds = np.zeros(len(frames))
+    speeds[one] = speed  # the first capture of a track has no link before it
+    speeds[other] = speed
+    return np.asarray(np.minimum(GATHERED * speeds, MOST_GATHERED))
+
+
+def _variances(graph: GraphMap, pairs: Int64) -> Float64:
+    """Return the variance of the distance between the views of each pair, m^2, float64 (p,).
+
+    If a part of a segment becomes visible or hidden, its box and its centroid change.
+    """
+    change = np.full(len(pairs), UNKNOWN)
+    if graph.sides is not None:
+        sides = graph.sides[pairs]
+        known = (sides > 0).all(axis=(1, 2))
+        change[known] = np.abs(sides[known, 1] - sides[known, 0]).max(axis=1)
+    return np.asarray(DEVIATION**2 + (PARTLY * change) ** 2)
+
+
+def _found_heading(frames: GraphFrames, turns: Float64, tracks: Int64) -> float:
+    """Return the standard deviation of the heading after one meter, degrees.
+
+    Args:
+        frames: the captures.
+        turns: float64 (links,), errors of the heading that were found, radians.
+        tracks: tracks that were corrected.
+    """
+    squares, meters = 0.0, 0.0
+    ends = frames.links[:, 1]
+    for track in tracks:
+        rows = frames.odometry.tracks[ends] == track
+        ways, sums = frames.ways[ends[rows]], np.cumsum(turns[rows])
+        later = np.searchsorted(ways, ways + HEADING_WAY)
+        first = np.flatnonzero(later < len(ways))
+        squares += float(((sums[later[first]] - sums[first]) ** 2).sum())
+        meters += float((ways[later[first]] - ways[first]).sum())
+    found = np.degrees(np.sqrt(squares / meters)) if meters > 0 else HEADING
+    return float(np.clip(found, *HEADINGS))
 
 
 def _ahead(graph: GraphMap, pairs: Int64) -> Float64:
@@ -269,7 +397,9 @@ def _movements(graph: GraphMap, pairs: Int64, ahead: Float64) -> csr_matrix:
     return csr_matrix((ahead[moving].T.ravel(), (rows, np.tile(group[moving], 2))), shape=size)
 
 
-def _prior(frames: GraphFrames, groups: int, parameters: PoseGraphParameters) -> csr_matrix:
+def _prior(
+    frames: GraphFrames, groups: int, heading: float, parameters: PoseGraphParameters
+) -> csr_matrix:
     """Return the information of the prior of all unknowns.
 
     The scale error is a Gauss-Markov process along each track, and the heading a random walk.
@@ -283,7 +413,7 @@ def _prior(frames: GraphFrames, groups: int, parameters: PoseGraphParameters) ->
     keeps = np.where(follows, np.exp(-way / parameters.scale_length), 0.0)
     scale = 1 / (parameters.scale * np.sqrt(1 - keeps**2))
     every, later = np.arange(count), np.flatnonzero(follows)
-    turn = 1 / (np.radians(parameters.drift_yaw) * np.sqrt(way))
+    turn = 1 / (np.radians(heading) * np.sqrt(way))
     values = [scale, -(keeps * scale)[later], turn]
     rows, columns = [every, later, count + every], [every, later - 1, count + every]
     total = 2 * count + groups
@@ -307,8 +437,7 @@ def _corrected(graph: GraphMap, errors: Float64) -> GraphMap:
     steps, turns = relative(
         odometry.positions[one], odometry.yaws[one], odometry.positions[other], odometry.yaws[other]
     )
-    order, tracks = frames.order, odometry.tracks[frames.order]
-    begins = np.concatenate([[True], (tracks[1:] != tracks[:-1]) | (tracks[1:] == NO_TRACK)])
+    order, begins = frames.order, _begins(frames)
     added = odometry.yaws.copy()
     added[other] = turns - errors[:, 1]
     yaws = np.empty(len(frames))
@@ -322,9 +451,7 @@ def _corrected(graph: GraphMap, errors: Float64) -> GraphMap:
         np.where(odometry.tracks == NO_TRACK, frames.yaws, yaws),
     )
     corrected = CaptureOdometry(odometry.tracks, positions, yaws, odometry.variances)
-    return GraphMap(
-        replace(moved_map.frames, odometry=corrected), moved_map.centroids, moved_map.captures
-    )
+    return replace(moved_map, frames=replace(moved_map.frames, odometry=corrected))
 
 
 def _summed(values: Float64, begins: Bool) -> Float64:

@@ -39,6 +39,9 @@ APART_SECONDS, APART_METERS = 60.0, 50.0
 """Gap between two captures of a robot from which they are not connected, if the map states no
 odometry: the robot may have been carried, or its odometry begun anew."""
 
+DECIMETERS = 10.0
+"""Units of the boxes of a map in one meter."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OptimizedMap:
@@ -83,7 +86,8 @@ def graph_of(content: CompactMap) -> GraphMap:
     else:
         odometry = CaptureOdometry.from_poses(_tracks_of(content), positions, yaws)
     frames = GraphFrames(content.frame_times, positions, yaws, odometry)
-    return GraphMap(frames, content.centroids, content.frame_index.astype(np.int64))
+    sides = None if content.extents is None else content.extents[:, :2] / DECIMETERS
+    return GraphMap(frames, content.centroids, content.frame_index.astype(np.int64), sides)
 
 
 def bent_content(
