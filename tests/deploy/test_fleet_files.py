@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 import yaml
 
+from service.api.middleware.request_log import ID_PATTERN
 from service.app import create_app
 from service.core.settings import Settings
 from service.maps.stores import OTHER_CONNECTIONS
@@ -192,6 +193,12 @@ def test_balancer_repeats_only_requests_that_change_nothing() -> None:
     assert HAPROXY.count("http-request disable-l7-retry unless METH_GET or is_search") == 2
     causes = re.findall(r"retry-on (.+)", HAPROXY)
     assert causes == ["conn-failure empty-response"] * 2
+
+
+def test_balancer_and_replica_log_the_same_id() -> None:
+    found = re.search(r"unless \{ req\.hdr\(X-Request-Id\) -m reg \^(\S+)\$ \}", HAPROXY)
+    assert found is not None
+    assert found[1] == ID_PATTERN.pattern
 
 
 def test_balancer_waits_longer_than_the_service(monkeypatch: pytest.MonkeyPatch) -> None:
