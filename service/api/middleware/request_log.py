@@ -25,6 +25,14 @@ ID_PATTERN = re.compile(r"[A-Za-z0-9._-]{1,64}")
 """Pattern of a request id that a client may choose; it excludes forged log lines."""
 
 
+PROBES = {"/livez", "/readyz", "/metrics"}
+"""Routes that balancers and monitors ask several times a second. Their requests are no spans unless
+the caller traces them, and no log lines unless they fail."""
+
+GOOD = 400
+"""Statuses below this one are no failures."""
+
+
 class RequestLog:
     """ASGI middleware that records every request. It is the outermost middleware."""
 
@@ -48,6 +56,9 @@ class RequestLog:
             request_id = secrets.token_hex(8)
         timing = Timing()
         tracing = scope["app"].state.placecell.tracing
+        path = scope["path"].removeprefix(scope.get("root_path", ""))
+        if path in PROBES and "traceparent" not in given:
+            tracing = None
         trace = tracing.start(scope["method"], given, timing) if tracing else None
         # All requests share the server's dictionary, so each request gets a copy.
         facts = scope["state"] = dict(scope.get("state", {}))
@@ -103,7 +114,8 @@ class RequestLog:
         if status in LOGGED_STATUSES:
             self._refusals.add(status, method, route, address, key, request_id)
         self._refused.add(status, scope["app"].state.placecell.engine.events)
-        logger.info(
+        logger.log(
+            logging.DEBUG if route in PROBES and status < GOOD else logging.INFO,
             "%s %s %s",
             method,
             route,

@@ -92,6 +92,21 @@ def test_unsampled_request_leaves_no_span(exporter: Any, service: Any) -> None:
     assert by_name(exporter) == {}
 
 
+def test_probes_are_spans_and_log_lines_only_if_they_are_asked_for(
+    exporter: Any, service: Any, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    caplog.set_level(logging.INFO, "placecell.requests")
+    for path in ("/livez", "/readyz", "/metrics"):
+        assert "Traceresponse" not in service.get(path).headers
+    assert by_name(exporter) == {}
+    assert caplog.records == []
+    assert "Traceresponse" in service.get("/readyz", headers={"traceparent": CALLER}).headers
+    assert [*by_name(exporter)] == ["GET /readyz"]
+    monkeypatch.setattr(service.app.state.placecell.engine.maps, "trouble", lambda: "it fails")
+    assert service.get("/readyz").status_code == 503
+    assert [each.getMessage() for each in caplog.records] == ["GET /readyz 503"]
+
+
 def test_failed_request_is_an_error(
     exporter: Any, service: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -193,10 +208,10 @@ def test_silent_collector_delays_neither_requests_nor_the_end(
         monkeypatch.setenv(ENDPOINT, f"http://127.0.0.1:{server.server_port}")
         monkeypatch.setenv("OTEL_BSP_SCHEDULE_DELAY", "10")
         with start() as service:
-            assert service.get("/livez").headers["Traceresponse"]
+            assert service.get("/info").headers["Traceresponse"]
             assert SilentCollector.taken.wait(20)
             begin = perf_counter()
-            assert service.get("/livez").status_code == 200
+            assert service.get("/info").status_code == 200
         assert perf_counter() - begin < 10
     finally:
         SilentCollector.ends.set()
