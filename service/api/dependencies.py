@@ -83,6 +83,9 @@ async def caught_up(
     """Load the maps and versions that the request needs and that are not here; 503 if it cannot."""
     maps, follower = state.engine.maps, state.engine.follower
     needs: list[Callable[[], object]] = []
+    if seen is not None:
+        # Several lines of one header mean the same as one with commas.
+        seen = ",".join(request.headers.getlist(SEEN_HEADER))
     if follower is not None and seen is not None and not follower.has_all(seen):
         needs.append(partial(follower.catch_up_with, seen))
     if follower is not None and state.settings.reads == "latest":

@@ -126,6 +126,12 @@ def test_wrong_token_is_refused(pair: tuple[Any, Any]) -> None:
         assert_problem(response, 422, "invalid-request", "Placecell-Seen")
 
 
+def test_all_lines_of_the_token_count(pair: tuple[Any, Any]) -> None:
+    for lines in (("yard -", "yard 12"), ("yard 12", "yard -")):
+        response = pair[0].get("/maps", headers=[("Placecell-Seen", each) for each in lines])
+        assert_problem(response, 422, "invalid-request", "Placecell-Seen")
+
+
 def test_map_that_was_deleted_and_created_again_is_loaded_whole(
     pair: tuple[Any, Any], manifest: Manifest
 ) -> None:
