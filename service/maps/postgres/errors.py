@@ -48,7 +48,7 @@ def kind_of(error: psycopg.Error) -> Trouble:
 def translated(error: psycopg.Error) -> StoreError:
     """Return the store's error for one of PostgreSQL."""
     kind, meaning = _meaning_of(error)
-    told = " ".join(str(error).split())
+    told = " ".join(str(error).split()).rstrip(".?")
     code = f" ({error.sqlstate})" if error.sqlstate else ""
     remedy = CHECK if not code and told.startswith(NOT_CONNECTED) else ""
     return StoreError(kind, f"PostgreSQL: {meaning}{code}: {told:.300}{remedy}")

@@ -52,6 +52,13 @@ _KINDS: dict[str, Trouble] = {
     "SQLITE_ERROR": "damaged",
 }
 
+_REMEDIES: dict[str, str] = {
+    "SQLITE_IOERR_SHMSIZE": "the disk is full. Make room on it",
+    "SQLITE_FULL": "the disk is full. Make room on it",
+    "SQLITE_CANTOPEN": "the file or its folder cannot be opened for writing. Run the command as "
+    "the user of the service, and copy the folder if its disk is read-only",
+}
+
 
 @dataclass(frozen=True, slots=True)
 class Layout:
@@ -512,5 +519,7 @@ def _translated(path: Path) -> Iterator[None]:
         # Extended codes begin with their basic code.
         matching = [kind for code, kind in _KINDS.items() if name.startswith(code)]
         kind = matching[0] if matching else "failing"
-        advice = f"; {ADVICE}" if kind == "damaged" else ""
+        remedies = [each for code, each in _REMEDIES.items() if name.startswith(code)]
+        remedy = ADVICE if kind == "damaged" else (remedies or [""])[0]
+        advice = f"; {remedy}" if remedy else ""
         raise StoreError(kind, f"{path}: {error} ({name or 'no code'}){advice}") from error

@@ -1,6 +1,7 @@
 """Full disk: writes that free space succeed, even after a restart."""
 
 import os
+import sqlite3
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +9,7 @@ import pytest
 from placecell_client import encode
 
 from placecell.descriptors.manifest import Manifest
+from service.maps.sqlite import database
 from service.maps.sqlite.database import Database
 from service.maps.sqlite.disk_reserve import DiskReserve
 from service.maps.sqlite.store import SqliteMapStore
@@ -210,3 +212,18 @@ def test_A18_partly_released_reserve_keeps_the_rest(tmp_path: Path) -> None:
     assert (tmp_path / "reserve").stat().st_size == reserve.size
     (tmp_path / "reserve").unlink()
     assert reserve.release_share(0.5) == 0
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        ("SQLITE_IOERR_SHMSIZE", "Make room"),
+        ("SQLITE_FULL", "Make room"),
+        ("SQLITE_CANTOPEN_FULLPATH", "Run the command as the user of the service"),
+    ],
+)
+def test_errors_of_the_disk_say_what_to_do(code: str, words: str) -> None:
+    error = sqlite3.OperationalError("words of SQLite")
+    error.sqlite_errorname = code
+    with pytest.raises(StoreError, match=words), database._translated(Path("maps.sqlite")):
+        raise error
