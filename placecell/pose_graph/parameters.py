@@ -81,5 +81,6 @@ class PoseGraphParameters:
     right_yaw: float = 3.0
     """Largest residual of an accepted loop after the optimization."""
     settled: float = 0.1
-    """Movement of a capture up to which it stays where it is: an optimization that moves no capture
-    farther changes nothing."""
+    settled_most: float = 0.3
+    """Movement of captures, root mean square and largest, up to which a map stays as it is. Stored
+    centroids are rounded to a centimeter, and a map that was optimized before moves by less."""

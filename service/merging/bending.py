@@ -149,9 +149,17 @@ def bend_content(
     )
     graph = graph_of(content)
     bent = bend(graph, search, parameters, model.confidence, known=known)
-    if not len(bent.moved) or bent.moved.max() <= parameters.settled:
+    if _is_settled(bent.moved, parameters):
         return bent, None
     return bent, bent_content(content, graph, bent.positions, bent.yaws)
+
+
+def _is_settled(moved: Float64, parameters: PoseGraphParameters) -> bool:
+    """Return whether an optimization moves captures, meters, by so little that the map stays."""
+    if not len(moved):
+        return True
+    mean = np.sqrt((moved**2).mean())
+    return bool(mean <= parameters.settled and moved.max() <= parameters.settled_most)
 
 
 AS_DRIVEN = 1e-3

@@ -219,13 +219,16 @@ def join_settled(
         if not len(changed) and not len(removed):
             break
         content = after
-        outcomes = [
-            PartOutcome(
-                one.added + other.added, one.known, other.repeats, one.removed + other.removed
-            )
-            for one, other in zip(outcomes, more, strict=True)
-        ]
+        outcomes = in_sequence(outcomes, more)
     return content, outcomes
+
+
+def in_sequence(first: Sequence[PartOutcome], second: Sequence[PartOutcome]) -> list[PartOutcome]:
+    """Return the outcome of each part of two joins, one after the other."""
+    return [
+        PartOutcome(one.added + other.added, one.known, other.repeats, one.removed + other.removed)
+        for one, other in zip(first, second, strict=True)
+    ]
 
 
 def at_known_pose(

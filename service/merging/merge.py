@@ -13,6 +13,7 @@ from placecell.localization import Pose
 from placecell.map_alignment import AlignmentParameters
 from placecell.pose_graph import PoseGraphParameters
 from service.core.problems import Problem
+from service.inference.model_registry import Model
 from service.maps.snapshot import MapSnapshot
 from service.maps.store import OutOfIdsError
 from service.maps.writes.deduplication import NONE, RADIUS, SameView
@@ -25,6 +26,7 @@ from service.merging.join import (
     PartOutcome,
     content_of,
     empty_merged_map,
+    in_sequence,
     join_settled,
     known_pose,
 )
@@ -37,6 +39,9 @@ AnchorOutcome = Literal["carried", "kept", "conflict"]
 TRIES = 3
 """Number of times that a merge is tried while the merged map is written. A rigid one then keeps
 writes waiting, and one that bends fails."""
+
+BENDS = 5
+"""Largest number of times that a merge bends the merged map; one or two are usual."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -243,26 +248,23 @@ class Merger:
         target = present if present is not None and len(present) else empty_merged_map(plan.maps[0])
         first_id = 0 if snapshot is None else snapshot.head.next_id
         first_id = first_id if free is None else free.start
-        reserved = free
         try:
-            content, found = join_settled(target, parts, first_id, same, self.parameters)
-            count = sum(outcome.added for outcome in found)
-            is_free = free is not None and count <= len(free)
-            if snapshot is not None and count and not self.dry_run and not is_free:
-                first = writer.reserve(name, count)
-                reserved = range(first, first + count)
-                if first != first_id:  # another request reserved ids in the meantime
-                    content, found = join_settled(target, parts, first, same, self.parameters)
+            content, found, reserved = self._with_ids(
+                snapshot, target, parts, same, first_id, name, free
+            )
+            bent = None
+            if not self.rigid:
+                begin = first_id + sum(each.added for each in found)
+                begin = begin if reserved is None else reserved.stop
+                bent, found = self._bent(
+                    snapshot, content, parts, same, begin, name, model, plan, found
+                )
         except MapFileError as error:
             raise Problem(
                 409, "cannot-merge", f"The maps cannot be joined: {error}. Leave one of them out."
             ) from error
         except OutOfIdsError as error:
             raise out_of_ids(name, error) from error
-        bent = None
-        if not self.rigid:
-            self.check()
-            _, bent = bend_content(content, model, PoseGraphParameters(), plan.loops)
         written, refreshed = content if bent is None else bent, NONE
         if self.deduplicate:
             judged = judged_map(written, present, parts, self.parameters)
@@ -273,6 +275,71 @@ class Merger:
             written = judged.content
         outcomes = dict(zip(joining, found, strict=True))
         return _JoinedMaps(snapshot, present, content, bent, written, refreshed, outcomes, reserved)
+
+    def _with_ids(
+        self,
+        snapshot: MapSnapshot | None,
+        target: CompactMap,
+        parts: Sequence[MergePart],
+        same: SameView | None,
+        first_id: int,
+        name: str,
+        free: range | None = None,
+    ) -> tuple[CompactMap, list[PartOutcome], range | None]:
+        """Join the parts, and reserve the ids of new segments.
+
+        Returns:
+            The joined maps, the outcome of each part, and the ids that are reserved.
+        """
+        content, found = join_settled(target, parts, first_id, same, self.parameters)
+        count = sum(outcome.added for outcome in found)
+        is_free = free is not None and count <= len(free)
+        if snapshot is None or not count or self.dry_run or is_free:
+            return content, found, free
+        first = self.writer.reserve(name, count)
+        if first != first_id:  # another request reserved ids in the meantime
+            content, found = join_settled(target, parts, first, same, self.parameters)
+        return content, found, range(first, first + count)
+
+    def _bent(
+        self,
+        snapshot: MapSnapshot | None,
+        content: CompactMap,
+        parts: Sequence[MergePart],
+        same: SameView | None,
+        first_id: int,
+        name: str,
+        model: Model,
+        plan: MergePlan,
+        outcomes: list[PartOutcome],
+    ) -> tuple[CompactMap | None, list[PartOutcome]]:
+        """Bend the merged map, and join again, until another merge would change nothing.
+
+        Captures that were moved show other segments of the same objects, so some repeats are none
+        any more.
+
+        Returns:
+            The merged map; None if no capture moved; and the outcome of each part.
+        """
+        bent, loops = None, plan.loops
+        for _ in range(BENDS):
+            self.check()
+            now = content if bent is None else bent
+            _, after = bend_content(now, model, PoseGraphParameters(), loops)
+            if after is None:
+                break
+            bent = after
+            if same is None:
+                break
+            joined, more, reserved = self._with_ids(snapshot, bent, parts, same, first_id, name)
+            changed, removed = difference(bent, joined)
+            if not len(changed) and not len(removed):
+                break
+            first_id += sum(each.added for each in more)
+            first_id = first_id if reserved is None else reserved.stop
+            bent, loops = joined, None  # the loops that the next merge would find
+            outcomes = in_sequence(outcomes, more)
+        return bent, outcomes
 
     def _write(self, name: str, plan: MergePlan, joined: _JoinedMaps) -> MergeResult:
         """Store the merged map; the caller holds its write lock."""

@@ -236,6 +236,24 @@ def test_merge_that_bends_lays_drifting_maps_on_each_other(
     assert doubles(content(service, "rigid-False")) < 0.5 * share[True]
 
 
+def test_merge_that_bends_and_deduplicates_again_changes_nothing(
+    service: Any, manifest: Manifest
+) -> None:
+    for seed, name in ((1, "ann"), (2, "bob")):
+        given, _ = drifting_map(manifest.model_id, seed, laps=1, robot=name, odometry=True)
+        put(service, name, given)
+    first = merge(service, "site", ["ann", "bob"], rigid=False)
+    assert first.status_code == 201, first.text
+    assert sum(part["repeats"] for part in first.json()["parts"]) > 100
+    for names in (["ann", "bob"], ["bob"]):
+        again = merge(service, "site", names, rigid=False)
+        assert again.status_code == 200, again.text
+        told = again.json()
+        assert [part["added"] for part in told["parts"]] == [0] * len(names)
+        assert (told["changed"], told["removed"]) == (0, 0)
+        assert told["sequence"] == told["previous"]
+
+
 def doubles(merged: CompactMap) -> float:
     """Return the mean distance between the captures of two robots at the same place, meters."""
     first, second = (
