@@ -17,6 +17,7 @@ from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.shipped_models import MODELS_FOLDER
 from placecell.segmentation.recording import Recording
 from tests.placecell.segment_builders import one_scan_recording
+from training.classes import placing
 from training.classes.augmentation import bent, grown, varied
 from training.classes.examples import Examples, LabeledDrive, examples_of
 from training.classes.learning import ClassRecipe, agreed, learn, weights_of
@@ -46,7 +47,7 @@ def separable(count: int, size: int, seed: int = 0) -> Examples:
     inputs = rng.normal(size=(count, size)).astype(np.float32)
     inputs[:, ::5] += np.where(classes == VEHICLE, 3, -3)[:, None]
     kind = np.zeros(count, np.float32)
-    return Examples(inputs, classes, np.arange(count), kind, kind)
+    return Examples(inputs, classes, np.arange(count), kind, kind, kind)
 
 
 def test_bent_segments_stay_near_their_points() -> None:
@@ -68,7 +69,10 @@ def test_only_vegetation_grows_together() -> None:
     assert len(copies) == 8
 
 
-def test_examples_of_simulated_recorded_and_unlabeled_drives() -> None:
+def test_examples_of_simulated_recorded_and_unlabeled_drives(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(placing, "THINGS", {"car": (3, ("vehicle",))})
     extractor = load_extractor(MODELS_FOLDER / "context-town", threads=1)
     classes: UInt8 = np.array([VEGETATION, VEHICLE, NO_CLASS, VEHICLE], np.uint8)
     drives = [
@@ -77,7 +81,10 @@ def test_examples_of_simulated_recorded_and_unlabeled_drives() -> None:
         LabeledDrive(recording_of(segments_of(4), "street")),
     ]
     found = examples_of(drives, extractor, seed=0)
-    assert len(found) == 4 * 2 + 4 * 5 + 2 * 2  # of the unlabeled drive, distinct segments
+    cast = int(found.is_cast.sum())
+    assert 0 < cast <= 3
+    assert (found.classes[found.is_cast > 0] == VEHICLE).all()
+    assert len(found) == 4 * 2 + cast + 4 * 5 + 2 * 2  # of the unlabeled drive, distinct segments
     assert found.inputs.shape[1] == extractor.manifest.dimension + FEATURES
     assert len(np.unique(found.groups)) == 4 + 4 + 2
     assert (found.classes[-4:] == NO_CLASS).all()
@@ -85,6 +92,7 @@ def test_examples_of_simulated_recorded_and_unlabeled_drives() -> None:
     assert (labeled.classes != NO_CLASS).all()
     weights = weights_of(labeled, QUICK)
     simulated = labeled.simulated > 0
+    assert set(weights[simulated]) == {1.0, QUICK.cast}
     assert weights[~simulated].sum() == pytest.approx(0.7 * weights[simulated].sum())
 
 

@@ -17,7 +17,7 @@ from placecell.core.types import Float32, Float64, UInt8
 from placecell.datasets.labels import NO_CLASS
 from training.classes.examples import Examples
 
-WIDTHS = (128, 64)
+WIDTHS = (256, 96)
 """Widths of the hidden layers."""
 
 HELD_OUT = 0.1
@@ -44,9 +44,10 @@ class ClassRecipe:
         smoothing: share of the probability that is spread over all classes.
         recorded: weight of all examples of recorded drives over that of the simulated ones.
         unlabeled: weight of all unlabeled examples over that of the simulated ones.
+        cast: weight of a thing that was cast over that of another simulated example.
     """
 
-    epochs: int = 6
+    epochs: int = 8
     batch: int = 256
     learning_rate: float = 4e-3
     weight_decay: float = 1e-3
@@ -55,6 +56,7 @@ class ClassRecipe:
     smoothing: float = 0.05
     recorded: float = 0.7
     unlabeled: float = 1.0
+    cast: float = 3.0
 
 
 class HeadNetwork(nn.Module):
@@ -146,11 +148,11 @@ def learn(
 
 
 def weights_of(examples: Examples, recipe: ClassRecipe) -> Float64:
-    """Return the weight of each example: those of recorded drives have `recipe.recorded`."""
+    """Return the weight of each example: see `recorded` and `cast` of the recipe."""
     simulated = examples.simulated > 0
-    weights = np.ones(len(examples))
+    weights = np.where(examples.is_cast > 0, recipe.cast, 1.0)
     if simulated.any() and not simulated.all():
-        weights[~simulated] = recipe.recorded * simulated.sum() / (~simulated).sum()
+        weights[~simulated] = recipe.recorded * weights[simulated].sum() / (~simulated).sum()
     return weights
 
 
