@@ -39,7 +39,7 @@ SHARES = (0.35, 0.3, 0.2, 0.15)
 
 
 @dataclass(frozen=True, slots=True)
-class Body:
+class CarBody:
     """Body of a car.
 
     Attributes:
@@ -161,7 +161,7 @@ def car(bearing: float, rng: np.random.Generator) -> Thing:
     heading = float(rng.uniform(-np.pi, np.pi))
     if rng.random() < 0.5:
         heading = bearing + float(rng.choice((0.0, np.pi)) + rng.normal(0, 0.25))
-    body = Body(
+    body = CarBody(
         heading,
         (length / 2, width / 2),
         height,
