@@ -1,7 +1,8 @@
 """Candidates: the most similar map segments of each segment of the robot's local map."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 
@@ -39,6 +40,16 @@ class Candidates:
 
     def __len__(self) -> int:
         return len(self.rows)
+
+    def take(self, queries: Int64) -> Self:
+        """Return the candidates of some queries, by their indices, int64 (m,)."""
+        return replace(
+            self,
+            centroids=self.centroids[queries],
+            rows=self.rows[queries],
+            places=self.places[queries],
+            probabilities=self.probabilities[queries],
+        )
 
     @cached_property
     def beliefs(self) -> Float64:

@@ -20,7 +20,7 @@ from placecell.localization.acceptance import Acceptance, check_risk
 from placecell.localization.candidates import Candidates
 from placecell.localization.chance import surprise
 from placecell.localization.hypothesis import Hypothesis
-from placecell.localization.overlap import ExplainedShares
+from placecell.localization.overlap import ExplainedShares, SegmentsInMap
 
 NAME = "confidence.json"
 
@@ -44,9 +44,12 @@ FEATURES = (
     "majority",
     "explained",
     "explained_in_plan",
+    "surprise_in_map",
+    "explained_in_map",
 )
 """Names of all features. A file names those that its model uses: earlier versions used the first
-six, five of the first eight, or `explained`, whose distances are in space."""
+six, five of the first eight, `explained`, whose distances are in space, or `surprise` and
+`explained_in_plan`, which count the segments beyond the edge of the map too."""
 
 
 MAJORITY = 0.5
@@ -65,6 +68,7 @@ def features_of(
     usable: int,
     candidates: Candidates,
     explained: ExplainedShares,
+    in_map: SegmentsInMap,
 ) -> Float64:
     """Return all features of a hypothesis, float64 (features,), in the order of `FEATURES`.
 
@@ -75,6 +79,7 @@ def features_of(
         usable: number of queries that have candidates.
         candidates: candidates of all queries.
         explained: shares of the robot's segments that the map explains (`overlap`).
+        in_map: the robot's segments where the map has been.
     """
     plan = best.source[:, :2] - best.source[:, :2].mean(axis=0)
     # The smaller horizontal extent: segments in a row determine less than segments all around.
@@ -91,6 +96,8 @@ def features_of(
             min(len(best) / usable, MAJORITY),
             explained.in_space * usable / (usable + FEW),
             explained.in_plan * usable / (usable + FEW),
+            np.arcsinh(surprise(best.pose, in_map.candidates)),
+            in_map.explained.in_plan * in_map.usable / (in_map.usable + FEW),
         ]
     )
 

@@ -14,7 +14,7 @@ from placecell.localization.correspondences import correspond
 from placecell.localization.evidence import Evidence
 from placecell.localization.guided_matching import CandidateSegments, MapSegments, match_guided
 from placecell.localization.hypothesis import Hypothesis, find_hypotheses
-from placecell.localization.overlap import explained_shares
+from placecell.localization.overlap import SegmentsInMap, explained_shares
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.voting import most_voted
@@ -192,7 +192,8 @@ def judge(
     second = hypotheses[order[1]] if len(order) > 1 else None
     rival = float(totals[order[1]]) / total if len(order) > 1 else 0.0
     explained = explained_shares(best.pose, candidates, there)
-    features = features_of(best, total, rival, usable, candidates, explained)
+    in_map = SegmentsInMap.of(best.pose, candidates, there)
+    features = features_of(best, total, rival, usable, candidates, explained, in_map)
     probability = confidence.probability(features)
     threshold, risk = threshold_of(parameters, confidence)
     reason, limit = rejection_of(best, rival, parameters)

@@ -8,9 +8,13 @@ that poses beside the hypothesis reach is subtracted, as in Cohen's kappa.
 Two sensors see an object up to different heights, so the heights of its centroids differ by meters,
 while their horizontal positions agree. So the distance is horizontal. Confidence models of earlier
 versions use the distance in space.
+
+A robot at the edge of a map sees as many segments beyond it as within, and the map cannot explain
+those beyond. So only the segments count that lie where the map has been, at the pose in question.
 """
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -33,8 +37,15 @@ BESIDE = 3.0
 DIRECTIONS = 8
 """Number of these poses, evenly spread around the hypothesis."""
 
+BEEN = 6.0
+"""Horizontal distance to a segment of the map within which the map has been, meters. Chosen among
+3, 4, 5, 6 and 8 m by the likelihood of the poses of four pairs of drives."""
+
 MOST_ROWS = 10_000
 """Largest number of map segments around the robot that count."""
+
+PLAN = np.array([1.0, 1.0, 0.0])
+"""Factor that makes positions horizontal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +63,36 @@ class ExplainedShares:
     in_space: float = 0.0
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class SegmentsInMap:
+    """The robot's segments that lie where the map has been, at a pose.
+
+    Attributes:
+        candidates: these segments, with their candidates.
+        explained: shares of them that the map explains.
+    """
+
+    candidates: Candidates
+    explained: ExplainedShares
+
+    @property
+    def usable(self) -> int:
+        """Number of these segments that have candidates."""
+        return int(np.count_nonzero(self.candidates.beliefs.any(axis=1)))
+
+    @classmethod
+    def of(cls, pose: Pose, candidates: Candidates, there: MapSegments) -> Self:
+        """Select the segments near a segment of the map, any one, and see which it explains.
+
+        Args:
+            pose: transform from the robot's frame to the map's.
+            candidates: the robot's segments.
+            there: segments of the map.
+        """
+        inside = where_map_has_been(pose, candidates, there)
+        return cls(inside, explained_shares(pose, inside, there))
+
+
 def explained_shares(pose: Pose, candidates: Candidates, there: MapSegments) -> ExplainedShares:
     """Return the shares of the robot's segments that the map explains at a pose.
 
@@ -64,13 +105,33 @@ def explained_shares(pose: Pose, candidates: Candidates, there: MapSegments) -> 
     if not len(seen):
         return ExplainedShares()
     places = pose.apply(seen)
-    _, points = there.near(places, BESIDE + SAME_IN_SPACE)
-    points = points[evenly(np.flatnonzero(np.isfinite(points).all(axis=1)), MOST_ROWS)]
-    plan = np.array([1.0, 1.0, 0.0])
+    points = _near(places, BESIDE + SAME_IN_SPACE, there)
     return ExplainedShares(
-        _beyond_chance(places * plan, points * plan, SAME_IN_PLAN),
+        _beyond_chance(places * PLAN, points * PLAN, SAME_IN_PLAN),
         _beyond_chance(places, points, SAME_IN_SPACE),
     )
+
+
+def where_map_has_been(pose: Pose, candidates: Candidates, there: MapSegments) -> Candidates:
+    """Return the robot's segments that lie near a segment of the map, any segment, at a pose.
+
+    Args:
+        pose: transform from the robot's frame to the map's.
+        candidates: the robot's segments.
+        there: segments of the map.
+    """
+    finite = np.flatnonzero(np.isfinite(candidates.centroids).all(axis=1))
+    if not len(finite):
+        return candidates.take(finite)
+    places = pose.apply(candidates.centroids[finite])
+    found, _, _ = nearest_within(places * PLAN, _near(places, BEEN, there) * PLAN, BEEN, 1)
+    return candidates.take(finite[found])
+
+
+def _near(places: Float64, meters: float, there: MapSegments) -> Float64:
+    """Return the finite centroids of the map near some places (n, 3), not too many."""
+    _, points = there.near(places, meters)
+    return points[evenly(np.flatnonzero(np.isfinite(points).all(axis=1)), MOST_ROWS)]
 
 
 def _beyond_chance(places: Float64, points: Float64, meters: float) -> float:

@@ -19,7 +19,7 @@ from placecell.localization.confidence import (
     with_rival,
 )
 from placecell.localization.hypothesis import Hypothesis
-from placecell.localization.overlap import ExplainedShares
+from placecell.localization.overlap import ExplainedShares, SegmentsInMap
 from placecell.localization.pose import Pose
 
 MODEL = Confidence((0.0, 1.0), (1.0, 2.0), (1.0, -1.0), 0.5, 0.99, ("score", "inliers"))
@@ -58,7 +58,9 @@ def test_features_by_hand() -> None:
     candidates = Candidates(
         source, numbers[:, None], source[:, None] + (100.0, 0, 0), np.full((4, 1), 0.5)
     )
-    row = features_of(best, 10.0, 0.25, 16, candidates, ExplainedShares(0.6, 0.8)).tolist()
+    in_map = SegmentsInMap(candidates.take(numbers[:2]), ExplainedShares(0.9, 1.0))
+    shares = ExplainedShares(0.6, 0.8)
+    row = features_of(best, 10.0, 0.25, 16, candidates, shares, in_map).tolist()
     # No candidate is near: no p-value, and 72 yaws at 64 m2 (one cell, or two) for 7 thresholds.
     alarms = 72 * area_of(candidates) * 7
     assert dict(zip(FEATURES, row, strict=True)) == pytest.approx(
@@ -73,6 +75,8 @@ def test_features_by_hand() -> None:
             "majority": 0.25,
             "explained": 0.8 * 16 / (16 + 8),
             "explained_in_plan": 0.6 * 16 / (16 + 8),
+            "surprise_in_map": -np.arcsinh(np.log(72 * area_of(in_map.candidates) * 7)),
+            "explained_in_map": 0.9 * 2 / (2 + 8),
         }
     )
 
@@ -95,7 +99,8 @@ def test_majority_grows_up_to_one_half_of_the_segments() -> None:
     candidates = Candidates(points, numbers[:, None], points[:, None], np.full((4, 1), 0.5))
     shares = {}
     for usable in (4, 6, 8, 16):
-        row = features_of(best, 8.0, 0.0, usable, candidates, ExplainedShares())
+        in_map = SegmentsInMap(candidates, ExplainedShares())
+        row = features_of(best, 8.0, 0.0, usable, candidates, ExplainedShares(), in_map)
         shares[usable] = row[FEATURES.index("majority")]
     assert shares == {4: 0.5, 6: 0.5, 8: 0.5, 16: 0.25}
 

@@ -3,7 +3,13 @@ import pytest
 
 from placecell.core.types import Float64, Int64
 from placecell.localization.candidates import Candidates
-from placecell.localization.overlap import MOST_ROWS, ExplainedShares, explained_shares
+from placecell.localization.overlap import (
+    BEEN,
+    MOST_ROWS,
+    ExplainedShares,
+    SegmentsInMap,
+    explained_shares,
+)
 from placecell.localization.pose import Pose
 
 SEEN = np.array([[0.0, 0, 0], [10, 0, 0], [20, 0, 0], [30, 0, 0]])
@@ -26,10 +32,17 @@ class Everything:
         raise AssertionError("positions only")
 
 
-def shares(seen: Float64, there: Float64) -> ExplainedShares:
+def candidates_of(seen: Float64) -> Candidates:
     none = np.zeros((len(seen), 0))
-    candidates = Candidates(seen, none.astype(np.int64), np.zeros((len(seen), 0, 3)), none)
-    return explained_shares(Pose.of_yaw(0.0, SHIFT), candidates, Everything(there))
+    return Candidates(seen, none.astype(np.int64), np.zeros((len(seen), 0, 3)), none)
+
+
+def shares(seen: Float64, there: Float64) -> ExplainedShares:
+    return explained_shares(Pose.of_yaw(0.0, SHIFT), candidates_of(seen), Everything(there))
+
+
+def in_map(seen: Float64, there: Float64) -> SegmentsInMap:
+    return SegmentsInMap.of(Pose.of_yaw(0.0, SHIFT), candidates_of(seen), Everything(there))
 
 
 def share(seen: Float64, there: Float64) -> float:
@@ -84,3 +97,26 @@ def test_large_map_is_thinned_evenly() -> None:
     random = np.random.default_rng(0)
     there = SEEN[random.integers(4, size=4 * MOST_ROWS)] + SHIFT
     assert share(SEEN, there + random.uniform(-0.1, 0.1, there.shape)) == 1.0
+
+
+def test_segments_beyond_the_edge_of_a_map_do_not_count() -> None:
+    # The map ends between the second and the third segment.
+    found = in_map(SEEN, SEEN[:2] + SHIFT)
+    assert found.candidates.centroids.tolist() == SEEN[:2].tolist()
+    assert found.explained.in_plan == 1.0
+    assert share(SEEN, SEEN[:2] + SHIFT) == 0.5
+
+
+def test_unexplained_segment_within_the_map_counts() -> None:
+    there = np.vstack([SEEN[:3] + SHIFT, SEEN[3:] + SHIFT + (0.0, BEEN - 0.1, 50.0)])
+    found = in_map(SEEN, there)
+    assert len(found.candidates) == 4
+    assert found.explained.in_plan == pytest.approx(3 / 4)
+
+
+def test_pose_outside_the_map_has_no_segments_in_it() -> None:
+    for seen in (SEEN, SEEN[:0], np.full((3, 3), np.nan)):
+        found = in_map(seen, SEEN + 500.0)
+        assert len(found.candidates) == 0
+        assert found.usable == 0
+        assert found.explained == ExplainedShares()
