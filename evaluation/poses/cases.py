@@ -3,7 +3,8 @@
 In each place, two robots drive the same way in opposite directions. Each capture of one robot is
 localized in the other's map, with all segments and with a few, and in a joined map of all places.
 It is also localized where no answer is right: in the map of another place, and in the other's map
-without the segments near the robot, where at best a similar street is found.
+without the segments near the robot, where at best a similar street is found. And it is localized in
+a part of the other's map that ends near the robot: half of what it sees lies beyond the edge.
 """
 
 import re
@@ -41,6 +42,13 @@ APART = 3_000.0
 NEAR = 60.0
 """Horizontal radius around the robot that is removed from a map without a right answer, meters. A
 robot's segments are within 40 m."""
+
+EDGE = (-15.0, 25.0)
+"""Range of the distance from the robot to the edge of a map's part, meters; negative: the robot is
+behind the edge, in the mapped area."""
+
+LEAST = 20
+"""Smallest number of segments of a map's part."""
 
 LOOK_ALIKES = "look-alikes"
 """Kind of place: streets with rows of identical houses, all over a town."""
@@ -197,6 +205,7 @@ def ask(
         for query in both[index].pair.queries(engine, frame, most):
             there = Pose(np.eye(3), shifts[number]).after(query.truth)
             _put_without(engine, maps[index], query)
+            edge = _put_edge(engine, maps[index], query, random)
             asked = [
                 Ask(query, names[index], query.truth, own=query.mapped),
                 Ask(query, elsewhere, None),
@@ -208,6 +217,11 @@ def ask(
                 *(
                     Ask(each, f"joined-{way}", there)
                     for each in (query, *parts(query, random, (12,)))
+                ),
+                *(
+                    Ask(each, "edge", query.truth)
+                    for each in (query, *parts(query, random, (20,)))
+                    if edge
                 ),
             ]
             for each in asked:
@@ -226,6 +240,44 @@ def _put_without(engine: Engine, compact: CompactMap, query: PoseQuery) -> None:
     if engine.maps.find("without") is not None:
         engine.delete_map("without")
     engine.put_map("without", take(compact, far))
+
+
+def _put_edge(
+    engine: Engine, compact: CompactMap, query: PoseQuery, random: np.random.Generator
+) -> bool:
+    """Store the map `edge`: the captures on one side of a line across the way, near the robot.
+
+    Returns:
+        Whether the part has enough segments; it is not stored otherwise.
+    """
+    place = query.truth.apply(query.sensor)
+    side, away = float(random.choice([-1.0, 1.0])), random.uniform(*EDGE)
+    part = ahead_of(compact.frame_positions, place, side * away, side)[compact.frame_index]
+    if np.count_nonzero(part) < LEAST:
+        return False
+    if engine.maps.find("edge") is not None:
+        engine.delete_map("edge")
+    engine.put_map("edge", take(compact, part))
+    return True
+
+
+def ahead_of(frames: Float64, place: Float64, meters: float, side: float = 1.0) -> Bool:
+    """Return which captures lie beyond a line across the way of the robot that made the map.
+
+    Args:
+        frames: float64 (n, 3), meters, sensor positions of the captures, in their order.
+        place: float64 (3,), meters, place near the way.
+        meters: distance along the way from the place to the line.
+        side: 1 for the captures after the line; -1 for those before it.
+
+    Returns:
+        bool (n,).
+    """
+    apart = (frames - place)[:, :2]
+    nearest = int(np.argmin(np.linalg.norm(apart, axis=1)))
+    along = apart[min(nearest + 1, len(frames) - 1)] - apart[max(nearest - 1, 0)]
+    along = along / max(float(np.linalg.norm(along)), 1e-9)
+    return np.asarray(side * (apart @ along - meters) > 0)
 
 
 def parts(

@@ -26,10 +26,10 @@ from placecell.localization.confidence import DEFAULT_RISK, FEATURES, SegmentNee
 from placecell.segmentation.pipeline import Progress, silent
 from service.engine import Engine
 
-FITTED = ("score", "margin", "spread", "surprise", "explained_in_plan")
+FITTED = ("score", "margin", "spread", "surprise_in_map", "explained_in_map")
 """Features of the model. `share`, `majority` and `residual` depend on the sensor: unmatched
 segments and centroid noise are more frequent on real sensors than in the town.
-`explained_in_plan` tells a street from a similar one."""
+`explained_in_map` tells a street from a similar one."""
 
 PENALTY = 1.0
 """Factor of the squared weights in the loss."""

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from evaluation.poses import confidence
-from evaluation.poses.cases import Cases, FitPair
+from evaluation.poses.cases import Cases, FitPair, ahead_of
 from evaluation.poses.confidence import MOST_NEEDED, figures, fit_cases, logistic, needs_of
 from placecell.core.types import Bool, Float64
 from placecell.localization import Confidence
@@ -136,6 +136,16 @@ def test_segments_needed_by_hand() -> None:
     assert few.segments == MOST_NEEDED - 1
     crossed[:, 0] = "os1-64"
     assert needs_of(replace(cases, right=right, sensors=crossed), told) == found
+
+
+def test_map_ends_ahead_of_the_robot_or_behind_it() -> None:
+    # The way leads along y; the robot is 1 m beside the third capture.
+    frames = np.column_stack([np.zeros(5), 10.0 * np.arange(5), np.ones(5)])
+    place = np.array([1.0, 20.0, 0.0])
+    assert ahead_of(frames, place, 5.0).tolist() == [False, False, False, True, True]
+    assert ahead_of(frames, place, -5.0).tolist() == [False, False, True, True, True]
+    assert ahead_of(frames, place, -5.0, -1.0).tolist() == [True, True, False, False, False]
+    assert ahead_of(frames[::-1], place, 5.0).tolist() == [False, False, False, True, True]
 
 
 def test_pair_of_a_folder_has_the_sensor_and_the_place_of_its_name(tmp_path: Path) -> None:
