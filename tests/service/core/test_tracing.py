@@ -102,7 +102,8 @@ def test_probes_are_spans_and_log_lines_only_if_they_are_asked_for(
     assert caplog.records == []
     assert "Traceresponse" in service.get("/readyz", headers={"traceparent": CALLER}).headers
     assert [*by_name(exporter)] == ["GET /readyz"]
-    monkeypatch.setattr(service.app.state.placecell.engine.maps, "trouble", lambda: "it fails")
+    engine = service.app.state.placecell.engine
+    monkeypatch.setattr(type(engine), "unready", lambda _: "It fails.")
     assert service.get("/readyz").status_code == 503
     assert [each.getMessage() for each in caplog.records] == ["GET /readyz 503"]
 
