@@ -62,10 +62,13 @@ def run_drift(
         tell: takes a line about the progress.
         keep: takes the report so far after each row, because all rows take hours.
     """
-    planned = len(plan.cases) * len(plan.percents)
-    report: dict[str, Any] = {"machine": machine(), "rows_planned": planned, "rows": []}
     with Engine.temporary(model_folder(DEFAULT_MODEL)) as engine:
-        report = {"model_id": engine.model.id} | report
+        report: dict[str, Any] = {
+            "model_id": engine.model.id,
+            "machine": machine(),
+            "rows_planned": len(plan.cases) * len(plan.percents),
+            "rows": [],
+        }
         for case in plan.cases:
             maps = robot_maps(case, plan.percents, plan.cache, tell)
             for percent in plan.percents:

@@ -16,8 +16,10 @@ from pathlib import Path
 from threading import Event, Thread
 from typing import Any
 
+import numpy as np
 from placecell_client import Client, decode
 
+from benchmarks.load.serve import percentiles
 from benchmarks.replicas.availability import AnswerTimes, Fault, FaultLog, cause_of, longest_gaps
 from benchmarks.replicas.balancer import running_balancer
 from benchmarks.replicas.commit_cutter import CommitCutter
@@ -267,7 +269,10 @@ def _report(
         "faults": faults.log.counts(),
         "skipped": faults.skipped,
         "failed_attempts": dict(sorted(refused.items())),
-        "answered_s": {"write": durations(writers), "read": durations(readers)},
+        "answered_ms": {
+            name: percentiles(np.array([1000 * each for robot in some for each in robot.answered]))
+            for name, some in (("write", writers), ("read", readers))
+        },
     }
 
 
@@ -403,16 +408,6 @@ def slowest_gaps(
         }
         for seconds, begin, end, robot in sorted(gaps, key=lambda gap: gap[0], reverse=True)[:most]
     ]
-
-
-def durations(robots: Sequence[FleetRobot]) -> dict[str, float]:
-    """Return median, 99th percentile and maximum of the attempts that succeeded, seconds."""
-    seconds = sorted(each for robot in robots for each in robot.answered) or [0.0]
-    return {
-        "p50": round(seconds[len(seconds) // 2], 3),
-        "p99": round(seconds[int(0.99 * (len(seconds) - 1))], 3),
-        "max": round(seconds[-1], 3),
-    }
 
 
 def answered(robot: FleetRobot, after: float) -> bool:

@@ -237,9 +237,7 @@ def _put_without(engine: Engine, compact: CompactMap, query: PoseQuery) -> None:
     """Store the map `without`: the map without the segments near the robot."""
     place = query.truth.apply(query.sensor)
     far = np.linalg.norm((compact.centroids - place)[:, :2], axis=1) > NEAR
-    if engine.maps.find("without") is not None:
-        engine.delete_map("without")
-    engine.put_map("without", take(compact, far))
+    _put_anew(engine, "without", take(compact, far))
 
 
 def _put_edge(
@@ -255,10 +253,15 @@ def _put_edge(
     part = ahead_of(compact.frame_positions, place, side * away, side)[compact.frame_index]
     if np.count_nonzero(part) < LEAST:
         return False
-    if engine.maps.find("edge") is not None:
-        engine.delete_map("edge")
-    engine.put_map("edge", take(compact, part))
+    _put_anew(engine, "edge", take(compact, part))
     return True
+
+
+def _put_anew(engine: Engine, name: str, compact: CompactMap) -> None:
+    """Store a map; an earlier one of this name is deleted with its versions."""
+    if engine.maps.find(name) is not None:
+        engine.delete_map(name)
+    engine.put_map(name, compact)
 
 
 def ahead_of(frames: Float64, place: Float64, meters: float, side: float = 1.0) -> Bool:

@@ -519,7 +519,7 @@ def _translated(path: Path) -> Iterator[None]:
         # Extended codes begin with their basic code.
         matching = [kind for code, kind in _KINDS.items() if name.startswith(code)]
         kind = matching[0] if matching else "failing"
-        remedies = [each for code, each in _REMEDIES.items() if name.startswith(code)]
-        remedy = ADVICE if kind == "damaged" else (remedies or [""])[0]
+        remedies = (each for code, each in _REMEDIES.items() if name.startswith(code))
+        remedy = ADVICE if kind == "damaged" else next(remedies, "")
         advice = f"; {remedy}" if remedy else ""
         raise StoreError(kind, f"{path}: {error} ({name or 'no code'}){advice}") from error

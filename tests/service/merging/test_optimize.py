@@ -53,6 +53,13 @@ def content(service: Any, name: str = "block") -> CompactMap:
     return decode(response.content)
 
 
+def put_two_drifting(service: Any, manifest: Manifest) -> None:
+    """Store a drifting map of each of two robots, `ann` and `bob`, with its odometry."""
+    for seed, name in ((1, "ann"), (2, "bob")):
+        given, _ = drifting_map(manifest.model_id, seed, laps=1, robot=name, odometry=True)
+        put(service, name, given)
+
+
 def optimize(service: Any, name: str = "block", **asked: Any) -> dict[str, Any]:
     response = service.post(f"/maps/{name}/optimize", params=asked)
     assert response.status_code == 200, response.text
@@ -222,9 +229,7 @@ def test_failed_write_leaves_the_whole_old_version(
 def test_merge_that_bends_lays_drifting_maps_on_each_other(
     service: Any, manifest: Manifest
 ) -> None:
-    for seed, name in ((1, "ann"), (2, "bob")):
-        given, _ = drifting_map(manifest.model_id, seed, laps=1, robot=name, odometry=True)
-        put(service, name, given)
+    put_two_drifting(service, manifest)
     share = {}
     for rigid in (True, False):
         answer = merge(service, f"rigid-{rigid}", ["ann", "bob"], deduplicate=False, rigid=rigid)
@@ -239,9 +244,7 @@ def test_merge_that_bends_lays_drifting_maps_on_each_other(
 def test_merge_that_bends_and_deduplicates_again_changes_nothing(
     service: Any, manifest: Manifest
 ) -> None:
-    for seed, name in ((1, "ann"), (2, "bob")):
-        given, _ = drifting_map(manifest.model_id, seed, laps=1, robot=name, odometry=True)
-        put(service, name, given)
+    put_two_drifting(service, manifest)
     first = merge(service, "site", ["ann", "bob"], rigid=False)
     assert first.status_code == 201, first.text
     assert sum(part["repeats"] for part in first.json()["parts"]) > 100
