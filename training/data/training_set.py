@@ -1,24 +1,37 @@
 """Training set: distinct segments of recordings, with their groups as labels."""
 
+from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from placecell.core.parameters import NeighborhoodParameters, Parameters
 from placecell.core.segments import Segments
-from placecell.core.types import Bool, Float32, Int64
+from placecell.core.types import Bool, Float32, Float64, Int64
 from placecell.segmentation.recording import Recording
+from training.data.linking import LINK_METERS, Linker
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Source:
-    """Part of a recording: the groups that lie completely within the scans first to last."""
+    """Part of a recording: the groups that lie completely within the scans first to last.
+
+    Attributes:
+        recording: segments of the drive.
+        first: index of the first scan.
+        last: index of the last scan (included).
+        site: name of the place that the drive shows, if other sources may show it, too, and the
+            true transform is known. Sources of one site share groups. "": shares with none.
+        to_site: float64 (4, 4), transform from the drive's world to the frame of the site.
+    """
 
     recording: Recording
     first: int
     last: int
+    site: str = ""
+    to_site: Float64 = field(default_factory=lambda: np.eye(4))
 
     @property
     def synthetic(self) -> bool:
@@ -29,6 +42,22 @@ class Source:
         """Return the indices of the distinct segments of these groups."""
         inside = self.recording.within(self.first, self.last)
         return np.flatnonzero(inside & self.recording.distinct)
+
+    def segments(self, *, to_site: bool = False) -> Segments:
+        """Return the distinct segments of these groups.
+
+        Args:
+            to_site: return them in the frame of the site, not of the drive's world.
+        """
+        segments = self.recording.segments.take(self.indices())
+        if not to_site:
+            return segments
+        turn, shift = self.to_site[:3, :3], self.to_site[:3, 3]
+        points, sensors = (
+            (values.astype(np.float64) @ turn.T + shift).astype(np.float32)
+            for values in (segments.points, segments.sensors)
+        )
+        return Segments(points, segments.ends, sensors)
 
     def describe(self) -> dict[str, Any]:
         """Return the entry of a manifest: drive, scans and the hashes of the scans."""
@@ -61,8 +90,9 @@ class TrainingSet:
     """Distinct segments with labels.
 
     Attributes:
-        segments: segments; coordinates are in the frame of each drive, meters.
-        groups: int64 (segments,): group of each segment, from 0; drives share no groups.
+        segments: segments; coordinates are in the frame of each drive or of its site, meters.
+        groups: int64 (segments,): group of each segment, from 0. Drives of one site share groups
+            (`training.data.linking`); others do not.
         parameters: parameters of the voxel grid.
         neighborhood: float32 (segments, size): neighborhood of each segment in its capture,
             duplicates included, as in a robot's request; None if it was not computed.
@@ -95,14 +125,17 @@ class TrainingSet:
             raise ValueError(
                 "The recordings were segmented by different parameters. Prepare all of them again."
             )
-        parts, groups, count = [], [], 0
+        parts, groups = [], []
         around = []
+        linker = Linker(LINK_METERS)
+        shown = Counter(source.site for source in sources)
         for source in sources:
+            # A site that one drive shows needs no links, so the drive keeps its frame.
+            site = source.site if shown[source.site] > 1 else ""
             indices = source.indices()
-            parts.append(source.recording.segments.take(indices))
+            parts.append(source.segments(to_site=bool(site)))
             labels = np.unique(source.recording.groups[indices], return_inverse=True)[1]
-            groups.append(labels + count)
-            count += int(labels.max(initial=-1)) + 1
+            groups.append(linker.add(labels, parts[-1].centroids(), site))
             if neighborhood is not None:
                 around.append(source.recording.neighborhood(neighborhood)[indices])
         return cls(

@@ -4,7 +4,8 @@ A network trained by the multi-similarity loss (Wang et al., 2019), the best los
 describes the segment itself. Linear discriminant analysis projects the neighborhood
 (`placecell.descriptors.neighborhood`): it finds the directions that separate groups and keep the
 views of a group together. Views from far apart weigh more. Synthetic drives teach it what other
-sensors see in other places. The analysis has a closed form, takes seconds and hardly over-fits. The
+sensors see in other places. Drives of one town in opposite directions, by several sensors, share
+groups, which weigh more. The analysis has a closed form, takes seconds and hardly over-fits. The
 descriptor holds both parts side by side. The neighborhood's part has about the same length for all
 segments, so that segments without a neighborhood are still ranked by their own part.
 
@@ -43,6 +44,8 @@ class ContextRecipe:
     """Shrinkage of the scatter within groups toward a multiple of the identity, 0 to 1."""
     recorded: float = 0.5
     """Weight of all groups of recorded drives together, if there are synthetic ones, 0 to 1."""
+    linked: float = 4.0
+    """Weight of a group that several drives see, in the weight of one that a single drive sees."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +95,8 @@ def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projecti
     weights = np.ones(count)
     if training.synthetic is not None:
         weights = group_weights(training.synthetic[plural][firsts], recipe.recorded)
+    if training.drives is not None:
+        weights[seen_by_several(groups, training.drives[plural])] *= recipe.linked
     within, centers = scatter(values, groups, training.segments.sensors[plural], weights)
     between = np.cov(centers.T, bias=True, aweights=weights)
     sphere = np.eye(len(within)) * np.trace(within) / len(within)
@@ -123,6 +128,19 @@ def group_weights(synthetic: Bool, recorded: float) -> Float64:
     if not made_up or not real:
         return np.ones(len(synthetic))
     return len(synthetic) * np.where(synthetic, (1 - recorded) / made_up, recorded / real)
+
+
+def seen_by_several(groups: Int64, drives: Int64) -> Bool:
+    """Return whether several drives see each group, bool (groups,).
+
+    Args:
+        groups: group of each segment, from 0, int64 (segments,).
+        drives: drive of each segment, int64 (segments,).
+    """
+    first, last = np.full(groups.max() + 1, drives.max()), np.zeros(groups.max() + 1, np.int64)
+    np.minimum.at(first, groups, drives)
+    np.maximum.at(last, groups, drives)
+    return np.asarray(last > first)
 
 
 def scatter(
