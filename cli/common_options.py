@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from cli.sources import SOURCE_HELP, TOWN_HELP
+from cli.sources import ROBOT_B_HELP, SOURCE_HELP, TOWN_HELP
 
 Drive = Annotated[
     Path,
@@ -37,7 +37,8 @@ Models = Annotated[
     typer.Option("--model", help="Model name or folder; repeatable. (default: all shipped models)"),
 ]
 TrainingDrives = Annotated[
-    list[str], typer.Argument(help=SOURCE_HELP + TOWN_HELP, metavar="DRIVE[@FIRST:LAST]...")
+    list[str],
+    typer.Argument(help=SOURCE_HELP + TOWN_HELP + ROBOT_B_HELP, metavar="DRIVE[@FIRST:LAST]..."),
 ]
 Classes = Annotated[
     list[str] | None,

@@ -69,7 +69,7 @@ def simulated(
     name, other_cars = other_day(text)
     seed, sensor, place = parse_town(name)
     with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
-        drive = town.first_robot(
+        drive = town.one_robot(
             Path(folder),
             seed,
             scans,

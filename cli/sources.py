@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from placecell.core.parameters import Parameters
+    from placecell.core.types import Float64
     from placecell.datasets import Drive
     from placecell.segmentation.recording import Recording
     from training.data.training_set import Source
@@ -30,6 +31,14 @@ TOWN_HELP = (
     " town:SEED is a simulated drive through the synthetic town with that seed, and "
     "town:SEED:SENSOR:PLACE one with another sensor or in another place, such as town:11:vlp-16 or "
     "town:11:os1-64:campus."
+)
+
+ROBOT_B = "+robot-b"
+
+ROBOT_B_HELP = (
+    " With +robot-b at its end, such as town:11:vlp-16+robot-b, it is robot B's drive: the same "
+    "way in the opposite direction, among other parked cars. Drives through one place share the "
+    "groups of what they both see."
 )
 
 DEFAULT_SENSOR = "hdl-64e"
@@ -133,25 +142,32 @@ def split_source(text: str) -> tuple[Path, tuple[int, int] | None]:
 
 
 def sources(texts: Iterable[str]) -> "list[Source]":
-    """Load drives, parts of drives, and towns; `town:SEED` is robot A's drive through that town.
+    """Load drives, parts of drives, and towns.
 
-    Robot B's drive is left out: it shows the same houses, which training would treat as different
-    groups.
+    `town:SEED` is robot A's drive through that town, and `town:SEED+robot-b` robot B's. Both show
+    the same site, so that training treats the same houses as the same groups.
     """
     return list(each_source(texts))
 
 
 def each_source(texts: Iterable[str]) -> "Iterator[Source]":
     """Load drives, parts of drives, and towns, one after the other (see `sources`)."""
+    for text in texts:
+        yield town_source(text) if text.startswith("town:") else source(text)
+
+
+def town_source(text: str) -> "Source":
+    """Simulate and segment one robot's drive through a town, town:SEED:SENSOR:PLACE[+robot-b].
+
+    Raises:
+        ValueError: the text has another form, or the sensor or the place is unknown.
+    """
     from training.data.training_set import Source
 
-    for text in texts:
-        if text.startswith("town:"):
-            seed, sensor, place = parse_town(text)
-            recording, _ = town_recordings(seed, TOWN_SCANS, sensor, place)
-            yield Source(replace(recording, name=text), 0, recording.scans - 1)
-        else:
-            yield source(text)
+    seed, sensor, place = parse_town(text.removesuffix(ROBOT_B))
+    recording, origin = town_drive(seed, TOWN_SCANS, sensor, place, opposite=text.endswith(ROBOT_B))
+    site = f"town:{seed}:{place}"
+    return Source(replace(recording, name=text), 0, recording.scans - 1, site, origin)
 
 
 OTHER_CARS = "+other-cars"
@@ -198,6 +214,29 @@ def town_recordings(
             Path(folder), seed=seed, scans=scans, place=place, lidar=lidar, progress=show
         )
         return [load(drive) for drive in drives]
+
+
+def town_drive(
+    seed: int, scans: int, sensor: str, place: str, *, opposite: bool
+) -> "tuple[Recording, Float64]":
+    """Simulate robot A or B in a synthetic town or place.
+
+    Returns:
+        The recording, and the transform from the drive's world to the town frame, (4, 4).
+    """
+    import town
+
+    with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
+        drive = town.one_robot(
+            Path(folder),
+            seed,
+            scans,
+            place=place,
+            lidar=town.sensor(sensor),
+            opposite=opposite,
+            progress=show,
+        )
+        return load(drive), town.read_origin(drive)
 
 
 def source(text: str) -> "Source":

@@ -26,7 +26,7 @@ from town.city import City
 from town.drives.drive import ORIGIN_FILE, read_origin, write_drive
 from town.drives.pair import StretchPair
 from town.drives.pairs import draw_pairs
-from town.drives.robots import first_robot, several_robots, two_robots, way_of
+from town.drives.robots import one_robot, several_robots, two_robots, way_of
 from town.drives.traversal import Traversal
 from town.geometry.mesh import Mesh
 from town.geometry.scene import Scene
@@ -55,7 +55,7 @@ __all__ = [
     "Town",
     "Traversal",
     "draw_pairs",
-    "first_robot",
+    "one_robot",
     "read_origin",
     "sensor",
     "several_robots",

@@ -159,7 +159,7 @@ def day_of(seed: int, sensor: str, scans: int, other_day: bool, cache: Path) -> 
 def _simulated(seed: int, sensor: str, scans: int, other_day: bool) -> dict[str, Any]:
     """Simulate and segment a drive."""
     with TemporaryDirectory(prefix="placecell-town-") as folder:
-        path = town.first_robot(
+        path = town.one_robot(
             Path(folder), seed, scans, lidar=town.sensor(sensor), labels=True, other_cars=other_day
         )
         drive = open_drive(path)

@@ -154,7 +154,7 @@ class TownDrives:
 
         with TemporaryDirectory(prefix="placecell-town-") as folder:
             if other_day:
-                drive = town.first_robot(
+                drive = town.one_robot(
                     Path(folder),
                     self.seed,
                     self.scans,

@@ -12,7 +12,7 @@ from placecell.datasets import open_drive
 from placecell.datasets.labels import CODES, GROUND, class_of_code, read_codes
 from placecell.segmentation.pipeline import record
 from placecell.segmentation.segment_labels import segment_classes
-from town import HDL_64E, Route, SceneObject, Town, first_robot, two_robots, write_drive
+from town import HDL_64E, Route, SceneObject, Town, one_robot, two_robots, write_drive
 from town.objects.labels import CODE_OF_KIND
 from town.places import Place, build_place
 
@@ -95,12 +95,15 @@ def test_another_day_moves_what_is_movable_in_a_place() -> None:
 
 
 @pytest.mark.slow
-def test_first_robot_writes_the_drive_of_robot_a(tmp_path: Path) -> None:
+def test_one_robot_writes_the_drive_of_either_robot(tmp_path: Path) -> None:
     lidar = replace(SMALL, columns=60)
-    both, _ = two_robots(tmp_path / "both", seed=5, scans=1, lidar=lidar, place="indoor")
-    alone = first_robot(tmp_path / "alone", 5, 1, place="indoor", lidar=lidar)
-    other = first_robot(tmp_path / "other", 5, 1, place="indoor", lidar=lidar, other_cars=True)
+    both, second = two_robots(tmp_path / "both", seed=5, scans=1, lidar=lidar, place="indoor")
+    alone = one_robot(tmp_path / "alone", 5, 1, place="indoor", lidar=lidar)
+    other = one_robot(tmp_path / "other", 5, 1, place="indoor", lidar=lidar, other_cars=True)
+    back = one_robot(tmp_path / "back", 5, 1, place="indoor", lidar=lidar, opposite=True)
     scan = Path("velodyne") / "000000.bin"
+    for file in (scan, "poses.txt", "origin.txt"):
+        assert (back / file).read_bytes() == (second / file).read_bytes()
     assert (alone / scan).read_bytes() == (both / scan).read_bytes()
     assert (other / scan).read_bytes() != (both / scan).read_bytes()
     assert (other / "poses.txt").read_bytes() == (both / "poses.txt").read_bytes()

@@ -93,18 +93,19 @@ def two_robots(
     return drives[0], drives[1]
 
 
-def first_robot(
+def one_robot(
     folder: Path,
     seed: int,
     scans: int,
     *,
     place: str = STREETS,
     lidar: Lidar = HDL_64E,
+    opposite: bool = False,
     labels: bool = False,
     other_cars: bool = False,
     progress: Progress = silent,
 ) -> Path:
-    """Write `robot_a` only; the files are the same as those of `two_robots`.
+    """Write `robot_a` or `robot_b` only; the files are the same as those of `two_robots`.
 
     Args:
         folder: parent folder of the drive.
@@ -112,6 +113,7 @@ def first_robot(
         scans: number of scans.
         place: name of the place, see `town.places`.
         lidar: simulated sensor.
+        opposite: write robot B, which drives in the opposite direction.
         labels: also write the class of each point.
         other_cars: drive the same way on another day, when all parked cars and people changed (see
             `Town.other_cars`), with other sensor noise.
@@ -122,12 +124,13 @@ def first_robot(
     """
     spacing = kind_of(place).spacing
     town, route = way_through(place, seed, scans, spacing)
+    number = 2 * seed + opposite
     return write_drive(
-        folder / "robot_a",
+        folder / ("robot_b" if opposite else "robot_a"),
         replace(town, other_cars=other_cars),
-        route,
-        traffic_seed=2 * seed,
-        noise_seed=[2 * seed, 1] if other_cars else 2 * seed,
+        route.reversed() if opposite else route,
+        traffic_seed=number,
+        noise_seed=[number, 1] if other_cars else number,
         scans=scans,
         spacing=spacing,
         lidar=mounted(lidar, place),
