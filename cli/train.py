@@ -46,6 +46,15 @@ def train(
             min=1, help="Number of passes over the training set. (default: set by the method)"
         ),
     ] = None,
+    keep_network: Annotated[
+        str | None,
+        typer.Option(
+            metavar="MODEL",
+            help="Model of the method context whose network is kept: name or folder. Only the "
+            "neighborhood's part, the quantizer and the pair classifier are fitted. (default: "
+            "train a network)",
+        ),
+    ] = None,
     runs: Runs = Path("runs"),
     resume: Resume = False,
     license_name: License = "not stated",
@@ -58,21 +67,27 @@ def train(
     the baseline, SegMatch's features standardized on the drives.
     """
     from placecell.core.parameters import NEIGHBORHOOD_V1
-    from placecell.descriptors.shipped_models import MODELS_FOLDER
+    from placecell.descriptors.shipped_models import MODELS_FOLDER, model_folder
 
     own = "wide" if method is Method.CONTEXT else "fast"
     options = ["--network", network] if network not in (None, own) else []
     options += ["--epochs", str(epochs)] if epochs else []
+    options += ["--keep-network", Path(keep_network).name] if keep_network else []
     folder = output or MODELS_FOLDER / method
     with clear_errors():
         from training.export.publishing import collect, publish_eigenvalue, retraining
+        from training.export.refitting import publish_refit
 
+        if keep_network and method is not Method.CONTEXT:
+            raise ValueError(f"--keep-network needs the method context, not {method}.")
         parts = sources(drives)
         command = retraining(["train", method], parts, license_name, seed, *options)
         around = NEIGHBORHOOD_V1 if method is Method.CONTEXT else None
         data = collect(parts, license_name, around).stating(seed=seed, command=command)
         if method is Method.EIGENVALUE:
             manifest = publish_eigenvalue(folder, data)
+        elif keep_network:
+            manifest = publish_refit(folder, model_folder(keep_network), data)
         else:
             manifest = learn(method, folder, data, seed, network or own, epochs, runs, resume)
     typer.echo(f"Model {manifest.model_id} is in {folder}.")

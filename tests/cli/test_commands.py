@@ -16,6 +16,7 @@ import town
 from cli import app
 from cli.fit_confidence import DRIVES, parse_pair, simulated_pairs
 from cli.sources import TOWN_SCANS, town_recordings
+from placecell.core.types import Float64
 from placecell.datasets import open_drive
 from placecell.descriptors.manifest import Manifest
 from placecell.localization import Confidence
@@ -85,11 +86,14 @@ def small_town() -> tuple[Recording, Recording]:
 def towns(monkeypatch: pytest.MonkeyPatch, small_town: tuple[Recording, Recording]) -> None:
     """Replace the drives of `town:5` by shorter ones that are simulated once."""
 
-    def driven(seed: int, scans: int, sensor: str, place: str) -> list[Recording]:
+    def driven(
+        seed: int, scans: int, sensor: str, place: str, *, opposite: bool
+    ) -> tuple[Recording, Float64]:
         assert (seed, scans, sensor, place) == (5, TOWN_SCANS, "hdl-64e", "streets")
-        return [*small_town]
+        return small_town[opposite], origins[opposite]
 
-    monkeypatch.setattr("cli.sources.town_recordings", driven)
+    origins = [np.eye(4), np.diag([-1.0, -1, 1, 1])]
+    monkeypatch.setattr("cli.sources.town_drive", driven)
 
 
 def test_train_writes_model_card_and_provenance(workshop: Path) -> None:
@@ -351,6 +355,17 @@ def test_context_model_uses_neighborhoods_and_trains_on_towns(
     drives = [source["drive"] for source in manifest.training["sources"]]
     assert drives == ["robot_a", "town:5"]
     assert "data/robot_a.safetensors town:5 --seed 0" in manifest.training["command"]
+    both = ("train", "context", recording, "town:5", "town:5+robot-b")
+    run(*both, "--keep-network", tmp_path / "around", "--output", tmp_path / "refit")
+    refit = Manifest.load(tmp_path / "refit")
+    drives = [source["drive"] for source in refit.training["sources"]]
+    assert drives == ["robot_a", "town:5", "town:5+robot-b"]
+    assert refit.model_id != manifest.model_id
+    lines = refit.training["command"].splitlines()
+    assert lines[-2].startswith("placecell train context data/robot_a.safetensors town:5 --seed")
+    assert "town:5 town:5+robot-b --seed 0 --keep-network around" in lines[-1]
+    said = run("train", "group", recording, "--keep-network", "context", status=1).output
+    assert "needs the method context, not group" in " ".join(said.split())
     asked = workshop / "data" / "robot_b.safetensors"
     run("evaluate", asked, "--model", tmp_path / "around", "--json", tmp_path / "figures.json")
     figures = json.loads((tmp_path / "figures.json").read_text())["extractors"]["around"]

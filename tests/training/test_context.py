@@ -15,11 +15,13 @@ from placecell.descriptors.extractor import load_extractor
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.neighborhood import describe_neighborhood
 from placecell.descriptors.quantizer import Quantizer
+from placecell.descriptors.shipped_models import model_folder
 from placecell.descriptors.voxels import voxelize
 from training.data.training_set import TrainingSet
 from training.export.onnx_graph import Exported, ExportedContext, export_onnx
 from training.export.publishing import Data, publish_network
 from training.export.quantization import quantize
+from training.export.refitting import publish_refit
 from training.methods import registry
 from training.methods.context import (
     ContextRecipe,
@@ -279,3 +281,55 @@ def test_context_training_publishes_a_usable_model(tmp_path: Path) -> None:
     around = describe_neighborhood(data.segments)
     assert (together == extractor.describe(data.segments, around)).all()
     assert not np.allclose(together, extractor.describe(data.segments, np.zeros_like(around)))
+
+
+def apart(folder: Path, data: TrainingSet, neighborhood: Float32 | None) -> Float32:
+    """Return the distances between the descriptors, which no rotation changes."""
+    described = load_extractor(folder).describe(data.segments, neighborhood)
+    return np.asarray(np.linalg.norm(described[:, None] - described[None], axis=2))
+
+
+def test_refit_keeps_the_network_and_fits_the_rest(tmp_path: Path) -> None:
+    data = many_groups(seed=0)
+    training, validation = data.split(0.4, seed=0)
+    provenance = {
+        "sources": [{"drive": "toy", "scans": [0, 1], "frame_step": 1, "segments": 9}],
+        "validation_share": 0.4,
+        "licence": "free",
+        "seed": 0,
+        "seconds": 7.0,
+        "machine": {"cores": 1},
+        "command": "train",
+    }
+    given = Data(training, validation, provenance)
+    recipe = ContextRecipe(
+        segment=GroupBasedRecipe(epochs=1, sgd=Sgd(0.05, batch=32)), dimension=32
+    )
+    run = Run(tmp_path / "run", 0)
+    trained = registry.train("context", training, validation, run, recipe=recipe)
+    first = publish_network(tmp_path / "toy", trained, given)
+    # The same drives give the same model.
+    again = publish_refit(tmp_path / "same", tmp_path / "toy", given, recipe)
+    one, other = (apart(tmp_path / name, data, data.neighborhood) for name in ("toy", "same"))
+    assert other == pytest.approx(one, abs=1e-3)
+    assert again.dimension == first.dimension
+    # Other neighborhoods change the descriptors in context, but not those of segments alone.
+    fresh = many_groups(seed=1)
+    moved = replace(data, neighborhood=np.asarray(fresh.neighborhood)[:, ::-1].copy())
+    changed = given.stating(seconds=0.0, command="refit")
+    changed = replace(changed, training=moved.take(np.arange(180)))
+    refit = publish_refit(tmp_path / "toy", tmp_path / "toy", changed, recipe)
+    assert refit.model_id not in (first.model_id, again.model_id)
+    assert refit.training["command"] == "train\nrefit"
+    assert refit.training["seconds"] == 7.0
+    nothing = np.zeros_like(np.asarray(data.neighborhood))
+    alone, before = (apart(tmp_path / name, data, nothing) for name in ("toy", "same"))
+    assert alone == pytest.approx(before, abs=1e-3)
+    seen = apart(tmp_path / "toy", data, data.neighborhood)
+    assert np.abs(seen - one).max() > 0.1
+
+
+def test_refit_of_another_method_raises_an_error(tmp_path: Path) -> None:
+    data = many_groups(seed=0)
+    with pytest.raises(ValueError, match="method context"):
+        publish_refit(tmp_path / "toy", model_folder("group"), Data(data, data, {}))
