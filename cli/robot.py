@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 OUTPUTS = "Outputs"
 LIVE = "Playback"
+LARGEST_SPOOL = 1 << 62
+"""Size of a spool without a limit, bytes."""
 
 
 def robot(
@@ -202,7 +204,7 @@ def robot(
             unmapped=tuple(unmapped or ()),
             keyframe_meters=keyframe_meters,
             localize_meters=localize_meters,
-            spool_bytes=int(spool_mb * 1e6),
+            spool_bytes=int(min(spool_mb * 1e6, LARGEST_SPOOL)),
             model=model,
         )
         key = os.environ.get(KEY_VARIABLE)
@@ -213,6 +215,11 @@ def robot(
             elif playback:
                 drive(agent, playback, speed if realtime else None)
         summary = agent.close()
+        if upload and not summary.segments and not agent.first_scan:
+            tell(
+                f"nothing is mapped: {summary.scans} scans gave no segment that can be stored. "
+                "'placecell inspect' checks the source."
+            )
         left = summary.spool.entries
         if left:
             where = f"They stay in {state}; run the command again." if state else "They are lost."

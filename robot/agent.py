@@ -42,6 +42,12 @@ SAVED_METERS = 0.5
 """Distance between two records of the last pose."""
 MOVED = np.array([0.5, 0.5, 0.5, 0.02, 0.02, 0.1])
 """How far a robot may be moved while it is off, as standard deviations: meters and radians."""
+LONGEST_WAIT = 60.0
+"""Longest time between two looks at the transfers at the end, seconds; any total is allowed."""
+FARTHEST_METERS = 5e7
+"""Largest coordinate of the odometry, meters: half of what a map's file can hold."""
+NO_ROTATION = 0.01
+"""Difference from the identity of a pose's rotation times its transpose, from which it is none."""
 CLOCK_GAP = 2.0
 """Time between two scans that is told, seconds."""
 
@@ -91,7 +97,7 @@ class RobotAgent:
         self.settings = settings
         self.map_to_odom: MapToOdom | None = None
         self.messages: list[str] = []
-        self._outputs = OutputGroup(outputs)
+        self._outputs = OutputGroup(outputs, self.messages.append)
         self._clock = clock
         self._engine = engine or LocalEngine(settings.model)
         self._owns_engine = engine is None
@@ -151,8 +157,9 @@ class RobotAgent:
                 states its growth from capture to capture.
         """
         self.messages.clear()
-        if not np.isfinite(odom_pose).all() or not np.isfinite(time_s):
-            self.messages.append("a scan without a finite pose and time is left out")
+        wrong = fault_of_pose(odom_pose, time_s)
+        if wrong:
+            self.messages.append(f"a scan is left out: {wrong}")
             self.drop_scan()
             return
         self._note_time(time_s)
@@ -230,7 +237,7 @@ class RobotAgent:
             left = end - self._clock()
             if left <= 0:
                 return False
-            self._courier.wait(left)
+            self._courier.wait(min(left, LONGEST_WAIT))
             self._step_courier()
             if self._courier.seconds_to_wait > 0:
                 time.sleep(min(left, self._courier.seconds_to_wait, 0.5))
@@ -538,3 +545,18 @@ class RobotAgent:
             state=self.status.state,
             link=self.status.link,
         )
+
+
+def fault_of_pose(odom_pose: Float64, time_s: float) -> str:
+    """Return why a scan's pose or time cannot be used; empty if it can."""
+    if not np.isfinite(odom_pose).all() or not np.isfinite(time_s):
+        return "its pose or time is not finite"
+    turn, position = odom_pose[:3, :3], odom_pose[:3, 3]
+    if np.abs(position).max() > FARTHEST_METERS:
+        return (
+            f"its pose is more than {FARTHEST_METERS:.0e} m from the origin. Check the odometry's "
+            "unit"
+        )
+    if np.abs(turn @ turn.T - np.eye(3)).max() > NO_ROTATION or np.linalg.det(turn) < 0:
+        return "its pose has no rotation: expected a (4, 4) rigid transform"
+    return ""

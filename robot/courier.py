@@ -1,5 +1,6 @@
 """Courier: sends the spool, pulls the map and reports the pose, one after the other."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -22,6 +23,9 @@ REPORT_SECONDS = 5.0
 BATCH = 20
 """Most edits that are sent in a row, before the map is pulled or the pose reported."""
 
+REQUEST_ID = re.compile(r" \(request [^)]*\)")
+"""Id of a request, as an error of the client shows it."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Delivered:
@@ -33,6 +37,7 @@ class _Delivered:
     retry_after: float | None = None
     upload: UploadResult | None = None
     replaced: bool = False
+    refused: str | None = None
 
 
 @dataclass(slots=True)
@@ -102,7 +107,10 @@ class Courier:
         if engine is not None:
             self._copy = load_copy(self._pull_name, folder)
             if self._copy.content is not None and self._copy.etag is not None:
-                engine.set_map(self._copy.content, self._copy.etag)
+                try:
+                    engine.set_map(self._copy.content, self._copy.etag)
+                except ValueError:  # Another model made it: the next pull says what to do.
+                    self._copy = MapCopy(self._pull_name)
 
     @property
     def is_idle(self) -> bool:
@@ -163,14 +171,17 @@ class Courier:
         if done.upload is not None:
             self._settle(done.upload, report)
         report.map_replaced = done.replaced
+        if done.refused is not None:
+            report.messages.append(f"{done.job}: {done.refused}")
         if done.error is None:
             self._backoff.succeeded()
             self._last_error = ""
             return
         self._backoff.failed(done.retry_after)
-        if done.error != self._last_error:
+        told = REQUEST_ID.sub("", done.error)  # It differs from call to call.
+        if told != self._last_error:
             report.messages.append(f"{done.job}: {done.error}")
-        self._last_error = done.error
+        self._last_error = told
 
     def _settle(self, result: UploadResult, report: CourierReport) -> None:
         for entry, chosen in result.sent:
@@ -212,9 +223,10 @@ class Courier:
             self._link.report(self._robot, status, pose)
         except LinkError as error:
             return _Delivered("report", error.was_reached, str(error), error.retry_after)
-        except RefusedError:
-            # An older service, or a key that may not report.
+        except RefusedError as error:
+            # An older service, a key that may not report, or a name that it does not take.
             self._next_report = float("inf")
+            return _Delivered("report", True, refused=f"others do not see this robot: {error}")
         return _Delivered("report", True)
 
 

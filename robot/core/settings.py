@@ -1,5 +1,7 @@
 """Settings of the agent."""
 
+import math
+import re
 import uuid
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,6 +12,10 @@ from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.segment_classes import ClassFilter
 from placecell.core.types import Float64
 from placecell.descriptors.shipped_models import DEFAULT_MODEL
+
+MAP_NAME = "[A-Za-z0-9][A-Za-z0-9._-]{0,63}"
+"""Pattern of a map's name, as the service has it. An edit of another name would be refused for
+ever, and lost."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,16 +105,24 @@ class AgentSettings:
         """Check the values.
 
         Raises:
-            ValueError: a name is empty or no class, or a number is not positive.
+            ValueError: a name is empty, no map's name or no class, or a number is not positive and
+                finite.
         """
         for classes in (self.ignore, self.unmapped):
             ClassFilter.of(None, classes)
         for name in ("map", "robot", "session"):
             if not getattr(self, name):
                 raise ValueError(f"Invalid {name} '': expected a name.")
+        for name in ("map", "localize_map", "upload_map"):
+            found = getattr(self, name)
+            if found is not None and not re.fullmatch(MAP_NAME, found):
+                raise ValueError(
+                    f"Invalid {name} {found!r:.80}: expected 1 to 64 letters, digits, dots, dashes "
+                    "or underscores, beginning with a letter or digit."
+                )
         for name in ("keyframe_meters", "localize_meters", "spool_bytes", "pull_seconds"):
             value = getattr(self, name)
-            if not value > 0:
+            if not 0 < value < math.inf:
                 raise ValueError(f"Invalid {name} {value}: expected a positive number.")
 
     @property

@@ -7,9 +7,10 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Self, TextIO
 
 from robot.core.status import SpoolStatus
+from robot.mapping.state_lock import lock_state
 
 FILE = "agent.sqlite"
 """Name of the database in the state folder."""
@@ -74,8 +75,15 @@ class Spool:
         dropped_segments: segments that were not stored.
     """
 
-    def __init__(self, database: sqlite3.Connection, session: str, most_bytes: int) -> None:
+    def __init__(
+        self,
+        database: sqlite3.Connection,
+        session: str,
+        most_bytes: int,
+        lock: TextIO | None = None,
+    ) -> None:
         self._database = database
+        self._lock = lock
         self._session = session
         self._most = most_bytes
         self.dropped_segments = 0
@@ -108,20 +116,23 @@ class Spool:
             tell: receives a line if the file was damaged.
 
         Raises:
-            OSError: the folder cannot be written.
+            OSError: the folder cannot be written, or another agent uses it.
         """
         if folder is None:
             return cls(sqlite3.connect(":memory:"), session, most_bytes)
-        folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
         file = folder / FILE
+        lock = lock_state(folder)
         try:
-            return cls(connect(file), session, most_bytes)
+            return cls(connect(file), session, most_bytes, lock)
         except sqlite3.DatabaseError as error:
             if isinstance(error, sqlite3.OperationalError):
+                if lock is not None:
+                    lock.close()
                 raise OSError(f"{file}: {error}. Check the folder, or give another one") from error
             aside = set_aside(file)
             tell(f"{file} is damaged ({error}). It is now {aside.name}; the agent starts anew.")
-            return cls(connect(file), session, most_bytes)
+            return cls(connect(file), session, most_bytes, lock)
 
     def __enter__(self) -> Self:
         return self
@@ -135,8 +146,10 @@ class Spool:
         self.close()
 
     def close(self) -> None:
-        """Close the database."""
+        """Close the database, and release the folder."""
         self._database.close()
+        if self._lock is not None:
+            self._lock.close()
 
     def progress(self) -> Progress:
         """Return the progress of the session; a damaged checkpoint is left out."""
@@ -240,6 +253,18 @@ class Spool:
             self._database.execute(statement, values)
             return True
         return False
+
+
+def make_folder(folder: Path) -> None:
+    """Create a state folder, unless it is there.
+
+    Raises:
+        OSError: it cannot be created, or a file has its name.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise OSError(f"{folder} is a file, expected a folder. Give another one") from error
 
 
 def connect(file: Path) -> sqlite3.Connection:

@@ -24,6 +24,7 @@ class EventLog(NoOutput):
         Raises:
             OSError: the file cannot be written.
         """
+        self.path = file
         file.parent.mkdir(parents=True, exist_ok=True)
         self._file: TextIO = file.open("a", encoding="utf-8", buffering=1)
 

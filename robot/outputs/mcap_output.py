@@ -50,6 +50,7 @@ class McapOutput(NoOutput):
         """
         from mcap.writer import CompressionType, Writer
 
+        self.path = file
         file.parent.mkdir(parents=True, exist_ok=True)
         self._stream = file.open("wb")
         self._writer = writer = Writer(self._stream, compression=CompressionType.ZSTD)

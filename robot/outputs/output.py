@@ -1,6 +1,7 @@
 """Interface of the outputs: what the agent reports while it runs."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from contextlib import suppress
 from typing import Protocol
 
 from placecell.core.segments import Segments
@@ -65,34 +66,55 @@ class NoOutput:
 
 
 class OutputGroup:
-    """Several outputs as one."""
+    """Several outputs as one. An output that cannot be written ends alone: the robot drives on."""
 
-    def __init__(self, outputs: Iterable[AgentOutput]) -> None:
+    def __init__(
+        self, outputs: Iterable[AgentOutput], tell: Callable[[str], None] = lambda _: None
+    ) -> None:
+        """Combine outputs.
+
+        Args:
+            outputs: the outputs.
+            tell: receives a line if an output ends early.
+        """
         self.outputs = tuple(outputs)
+        self._tell = tell
 
     def scan(
         self, time: float, points: Float32, odom_pose: Float64, map_to_odom: MapToOdom | None
     ) -> None:
         """Pass a scan on."""
-        for each in self.outputs:
-            each.scan(time, points, odom_pose, map_to_odom)
+        self._each(lambda output: output.scan(time, points, odom_pose, map_to_odom))
 
     def segments(self, time: float, segments: Segments, ids: Int64) -> None:
         """Pass segments on."""
-        for each in self.outputs:
-            each.segments(time, segments, ids)
+        self._each(lambda output: output.segments(time, segments, ids))
 
     def fix(self, fix: Fix) -> None:
         """Pass a fix on."""
-        for each in self.outputs:
-            each.fix(fix)
+        self._each(lambda output: output.fix(fix))
 
     def status(self, status: AgentStatus) -> None:
         """Pass a status on."""
-        for each in self.outputs:
-            each.status(status)
+        self._each(lambda output: output.status(status))
 
     def close(self) -> None:
         """Close all outputs."""
+        self._each(lambda output: output.close())
+        self.outputs = ()
+
+    def _each(self, call: Callable[[AgentOutput], None]) -> None:
         for each in self.outputs:
-            each.close()
+            try:
+                call(each)
+            except OSError as error:
+                self._end(each, error)
+
+    def _end(self, output: AgentOutput, error: OSError) -> None:
+        """Leave out an output that fails, such as one on a full disk."""
+        self.outputs = tuple(each for each in self.outputs if each is not output)
+        with suppress(OSError):
+            output.close()
+        name = getattr(output, "path", None) or type(output).__name__
+        why = error.strerror or str(error) or type(error).__name__
+        self._tell(f"{name} ends here, and the robot goes on: it cannot be written ({why})")

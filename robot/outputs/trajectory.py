@@ -26,6 +26,7 @@ class TrajectoryFile(NoOutput):
         Raises:
             OSError: the file cannot be written.
         """
+        self.path = file
         file.parent.mkdir(parents=True, exist_ok=True)
         self._is_kitti = file.suffix in KITTI_SUFFIXES
         self._file: TextIO = file.open("w", encoding="utf-8")

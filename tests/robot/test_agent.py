@@ -1,15 +1,21 @@
 """The agent: each transition of its state, with fakes of link and engine."""
 
+import errno
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from placecell_client import CompactMap, MapCopy, decode_delta
 from placecell_client.maps.follow import moved_at
 
+from placecell.core.types import Float64
 from robot.agent import RobotAgent
-from robot.core.link import LinkError
+from robot.core.link import LinkError, RefusedError
 from robot.core.settings import AgentSettings
+from robot.core.worker import InlineWorker
+from robot.localization.pulled_map import save_copy
+from robot.outputs.output import NoOutput
 from tests.client.test_follow import line, turned
 from tests.robot.agent_fakes import (
     FakeClock,
@@ -21,6 +27,7 @@ from tests.robot.agent_fakes import (
     drive,
     new_agent,
 )
+from tests.robot.test_upload import edit
 
 pytestmark = pytest.mark.slow
 
@@ -247,10 +254,115 @@ def test_clock_that_jumps_is_told_and_does_not_disturb(street: Street) -> None:
     assert state_of(agent) == "tracking"
 
 
-def test_pose_that_is_not_finite_is_left_out(street: Street) -> None:
+@pytest.mark.parametrize(
+    ("pose", "told"),
+    [
+        (np.full((4, 4), np.nan), "not finite"),
+        (at(1e9), "unit"),
+        (at(1e300), "unit"),
+        (np.zeros((4, 4)), "no rotation"),
+        (np.diag([1.0, 1.0, -1.0, 1.0]), "no rotation"),
+        (np.diag([2.0, 2.0, 2.0, 1.0]), "no rotation"),
+    ],
+)
+def test_pose_that_cannot_be_used_is_left_out(street: Street, pose: Float64, told: str) -> None:
     agent = new_agent(settings(), FakeLink())
-    agent.on_scan(street.scan(at(0)), 0.0, np.full((4, 4), np.nan))
+    agent.on_scan(street.scan(at(0)), 0.0, pose)
+    assert told in agent.messages[0]
     assert agent.close().scans_dropped == 1
+
+
+@pytest.mark.parametrize("name", ["two words", "../yard", "a" * 65, "yard\n"])
+@pytest.mark.parametrize("field", ["map", "localize_map", "upload_map"])
+def test_name_that_no_map_can_have_is_refused_before_the_drive(field: str, name: str) -> None:
+    with pytest.raises(ValueError, match="expected 1 to 64 letters"):
+        settings(**{field: name})
+
+
+def test_infinite_spool_is_refused() -> None:
+    with pytest.raises(ValueError, match="positive number"):
+        settings(spool_bytes=float("inf"))
+
+
+def test_output_on_a_full_disk_ends_alone(street: Street) -> None:
+    recorder, full = Recorder(), FullOutput()
+    agent = RobotAgent(
+        settings(),
+        FakeLink(),
+        [full, recorder],
+        FakeClock(),
+        FakeEngine(),  # type: ignore[arg-type]
+        InlineWorker,
+    )
+    told = []
+    for place in steps(0, 6):
+        agent.on_scan(street.scan(at(place)), place / 10, at(place))
+        told += agent.messages
+    assert [each for each in told if "run.tum" in each] == [
+        "run.tum ends here, and the robot goes on: it cannot be written (No space left on device)"
+    ]
+    assert full.scans == 1
+    assert recorder.states
+    assert agent.close().scans == len(steps(0, 6))
+
+
+def test_error_is_told_once_though_its_request_ids_differ(street: Street) -> None:
+    link, clock = FakeLink(), FakeClock()
+    agent = new_agent(settings(), link, clock=clock)
+    told = []
+    for number, place in enumerate(steps(0, 12)):
+        link.failure = LinkError(f"the service cannot be reached (request {number:032x})")
+        clock.now += 30.0
+        agent.on_scan(street.scan(at(place)), place / 10, at(place))
+        told += [each for each in agent.messages if "cannot be reached" in each]
+    assert len(told) == 1
+
+
+def test_refused_report_is_told_once(street: Street) -> None:
+    link, clock = DeafLink(), FakeClock()
+    agent = new_agent(settings(robot="robot 7"), link, clock=clock)
+    told = []
+    for place in steps(0, 12):
+        clock.now += 10.0
+        agent.on_scan(street.scan(at(place)), place / 10, at(place))
+        told += [each for each in agent.messages if "others do not see this robot" in each]
+    assert len(told) == 1
+
+
+def test_pulled_map_of_another_model_does_not_stop_the_start(tmp_path: Path) -> None:
+    save_copy(MapCopy("yard", decode_delta(edit([1])).changed, "00ab-3"), tmp_path / "maps")
+    engine = PickyEngine()
+    agent = new_agent(settings(state=tmp_path), FakeLink(), engine)
+    assert engine.refused == 1
+    agent.close()
+
+
+class FullOutput(NoOutput):
+    """Output on a full disk."""
+
+    path = "run.tum"
+    scans = 0
+
+    def scan(self, *_: object) -> None:
+        self.scans += 1
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+
+class DeafLink(FakeLink):
+    """Link to a service that takes no reports of this robot."""
+
+    def report(self, *_: object) -> None:
+        raise RefusedError("Invalid robot name", 422, "invalid-name")
+
+
+class PickyEngine(FakeEngine):
+    """Engine of another model than that of the pulled map."""
+
+    refused = 0
+
+    def set_map(self, content: CompactMap, etag: str) -> None:
+        self.refused += 1
+        raise ValueError("The map has another model.")
 
 
 def test_last_pose_is_confirmed_by_one_fix_after_a_restart(street: Street, tmp_path: Path) -> None:

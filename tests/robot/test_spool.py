@@ -98,6 +98,15 @@ def test_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
         Spool.open(tmp_path / "file", "one", 1000)
 
 
+def test_two_agents_never_use_one_folder(tmp_path: Path) -> None:
+    with Spool.open(tmp_path, "one", 1000) as spool:
+        with pytest.raises(OSError, match="in use by another agent"):
+            Spool.open(tmp_path, "two", 1000)
+        assert spool.add(0, 0, b"mine", 1)
+    with Spool.open(tmp_path, "two", 1000) as spool:
+        assert [each.content for each in spool.oldest(5)] == [b"mine"]
+
+
 WRITER = """
 import sys
 from pathlib import Path
