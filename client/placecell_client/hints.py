@@ -5,9 +5,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 Numbers = Sequence[float] | NDArray[Any]
+LARGEST_VARIANCE = 1e16
+"""Largest value of a covariance: no map has a coordinate beyond 1e8 m."""
+UNEVEN = 1e-3
+"""Share of a covariance's largest value that rounding may add."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +92,8 @@ class LastPoseHint:
             _check_positive("yaw_tolerance", self.yaw_tolerance)
             if self.orientation is None:
                 raise ValueError("A yaw_tolerance needs an orientation.")
+        elif self.orientation is not None and self.covariance is not None:
+            _check_heading(self.covariance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,6 +287,14 @@ def _check_quaternion(values: Numbers) -> None:
         )
 
 
+def _check_heading(rows: Sequence[Sequence[float]] | NDArray[Any]) -> None:
+    if len(rows) > 3 and not float(rows[-1][-1]) > 0:
+        raise ValueError(
+            "Invalid covariance: the variance of the heading is 0, so that no pose is within the "
+            "hint. Give the real variance, a yaw_tolerance, or no orientation."
+        )
+
+
 def _check_covariance(rows: Sequence[Sequence[float]] | NDArray[Any]) -> None:
     size = len(rows)
     if size not in (3, 4, 6):
@@ -290,3 +305,28 @@ def _check_covariance(rows: Sequence[Sequence[float]] | NDArray[Any]) -> None:
             raise ValueError(
                 f"Invalid covariance: the variance {float(row[index]):g} in row {index} is below 0."
             )
+    matrix = np.asarray(rows, np.float64)
+    largest = float(np.abs(matrix).max())
+    if largest > LARGEST_VARIANCE:
+        raise ValueError(
+            f"Invalid covariance: the value {largest:g} is above {LARGEST_VARIANCE:g}. Leave out "
+            "the hint if the position is not known."
+        )
+    if not matrix.diagonal()[:3].any():
+        raise ValueError(
+            "Invalid covariance: all variances of the position are 0, so that no pose is within "
+            "the hint. Give the real covariance, or a radius."
+        )
+    apart = np.argwhere(np.abs(matrix - matrix.T) > UNEVEN * largest)
+    if len(apart):
+        row, column = apart[0].tolist()
+        raise ValueError(
+            f"Invalid covariance: {matrix[row, column]:g} in row {row}, column {column} differs "
+            f"from {matrix[column, row]:g} in row {column}, column {row}. Expected a symmetric "
+            "matrix."
+        )
+    smallest = float(np.linalg.eigvalsh(matrix)[0])
+    if smallest < -UNEVEN * largest:
+        raise ValueError(
+            f"Invalid covariance: its smallest eigenvalue is {smallest:g}. Expected none below 0."
+        )

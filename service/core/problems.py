@@ -103,7 +103,7 @@ def unexpected() -> Problem:
 
 def _plain(message: str) -> str:
     """Remove the words that pydantic puts before its parser's and the validators' messages."""
-    return message.removeprefix("Value error, ").removeprefix("Invalid JSON: ")
+    return message.removeprefix("Value error, ").removeprefix("Invalid JSON: ").removesuffix(".")
 
 
 def _pointer(location: tuple[int | str, ...]) -> str:

@@ -122,8 +122,10 @@ class ResolvedHints:
         """Return a map's localization without a pose that the hints exclude."""
         if found.reason in {"ambiguous", "too-few-segments"}:
             return found
-        best = found.best
-        is_allowed = snapshot.head.uid in self.areas
+        best, area = found.best, self.areas.get(snapshot.head.uid)
+        is_allowed = area is not None
+        if area is not None and not area.discs and not area.headings:
+            return found  # No hint narrows this map.
         if best is None:
             if not is_allowed:
                 return found

@@ -25,7 +25,7 @@ Longitude = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-180, le
 class NearIn(Request):
     """The sensor is near a position."""
 
-    position: Point | tuple[Coordinate, Coordinate] = Field(
+    position: Annotated[list[Coordinate], Field(min_length=2, max_length=3)] = Field(
         description="Position x, y, z in a map's frame, meters; x, y for any height."
     )
     radius: Positive = Field(description="Largest distance from the position, meters.")

@@ -193,6 +193,11 @@ def test_range_of_headings_goes_around_the_circle() -> None:
     assert HeadingRange(0.0, 4.0).holds(np.pi)
 
 
+def covariance_hint(rows: list[list[float]], turn: list[float] | None = None) -> dict[str, Any]:
+    last = {"map": "street", "position": HERE, "covariance": rows, "orientation": turn}
+    return {"last_pose": last}
+
+
 BAD = {
     "NaN": ({"near": {"position": [float("nan"), 0, 0], "radius": 5}}, "/hints/near/position"),
     "infinite radius": ({"near": {"position": HERE, "radius": float("inf")}}, "/hints/near/radius"),
@@ -228,6 +233,23 @@ BAD = {
         },
         "/hints/last_pose",
     ),
+    "lopsided covariance": (
+        covariance_hint([[1, 5, 0], [0, 1, 0], [0, 0, 1]]),
+        "/hints/last_pose",
+    ),
+    "covariance below zero": (
+        covariance_hint([[1, 5, 0], [5, 1, 0], [0, 0, 1]]),
+        "/hints/last_pose",
+    ),
+    "covariance of zeros": (covariance_hint([[0, 0, 0]] * 3), "/hints/last_pose"),
+    "heading without variance": (
+        covariance_hint(np.diag([1, 1, 1, 0]).tolist(), [0, 0, 0, 1]),
+        "/hints/last_pose",
+    ),
+    "covariance of the whole Earth": (
+        covariance_hint([[1e308, 1e308, 0], [1e308, 1e308, 0], [0, 0, 1]]),
+        "/hints/last_pose",
+    ),
     "latitude": ({"geo": {"lat": 91, "lon": 0, "accuracy": 1}}, "/hints/geo/lat"),
     "tolerance": ({"yaw": {"radians": 0, "tolerance": float("nan")}}, "/hints/yaw/tolerance"),
 }
@@ -243,6 +265,20 @@ def test_wrong_value_is_refused_with_its_place(
     assert_problem(response, 422, "invalid-request")
     pointers = [each["pointer"] for each in response.json()["errors"]]
     assert any(each.startswith(pointer) for each in pointers), pointers
+    assert not any("[" in each for each in pointers), pointers
+    assert ".." not in response.json()["detail"]
+
+
+@pytest.mark.parametrize("hints", [{}, {"geo": {"lat": 49.0, "lon": 8.4, "accuracy": 5.0}}])
+def test_hint_that_narrows_nothing_is_not_the_reason(
+    stocked: Any, body: Any, hints: dict[str, Any]
+) -> None:
+    scattered = np.random.default_rng(3).uniform(-30, 30, (len(body["centroids"]), 3)).tolist()
+    lost = body | {"centroids": scattered}
+    plain = stocked.post("/localize", json=lost).json()["localizations"][0]
+    told = ask(stocked, lost, **hints)["localizations"][0]
+    assert not plain["localized"]
+    assert (told["reason"], told["detail"]) == (plain["reason"], plain["detail"])
 
 
 def test_sensor_is_needed_where_the_frame_s_origin_is_far(stocked: Any, body: Any) -> None:
