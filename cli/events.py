@@ -4,7 +4,11 @@ from typing import Annotated
 
 import typer
 
+from cli.errors import fail
 from cli.maps.connection import LOCAL, Url, service
+
+OF_STREAM = ("missed", "dropped", "stopping")
+"""Kinds of events about the stream itself."""
 
 
 def events(
@@ -20,7 +24,14 @@ def events(
 ) -> None:
     """Print the events of a service as lines of JSON, until Ctrl+C; a broken link is reopened."""
     import json
+    from typing import get_args
 
+    from service.live.events import Kind
+
+    known = (*get_args(Kind), *OF_STREAM)
+    for each in kind or ():
+        if each not in known:
+            fail(f"Unknown kind {each!r}: expected one of {', '.join(known)}.")
     count = 0
     with service(url) as client:
         try:

@@ -19,7 +19,7 @@ from service.api.path_parameters import Name
 from service.api.state import State
 from service.core.auth import Principal
 from service.core.preconditions import Preconditions
-from service.core.problems import Problem
+from service.core.problems import Problem, invalid_value
 from service.core.timing import Timing
 from service.maps.following.follower import behind
 from service.maps.repository import MapRepository
@@ -164,8 +164,16 @@ class MapWrite:
 
     @asynccontextmanager
     async def enter(self, lane: Lane) -> AsyncIterator[None]:
-        """Check the key's scope and enter a lane, for a request without a body."""
+        """Check the key's scope and enter a lane, for a request without a body.
+
+        Raises:
+            Problem: 422 if it has one: options in it, such as `dry_run`, would be ignored.
+        """
         self.check_writable()
+        if _has_body(self.request):
+            raise invalid_value(
+                "", "This route takes its options in the query (?NAME=VALUE), not in a body."
+            )
         async with lane.enter(self.request):
             await self._check_newest()
             yield
@@ -229,6 +237,12 @@ class MapWrite:
     def record(self, operation: str, effect: str, segments: int = 0) -> None:
         """Record any other write in the audit log."""
         record(self.request, self.state, operation, self.name, effect, segments)
+
+
+def _has_body(request: Request) -> bool:
+    """Return whether a request has a body that may hold options: more than `{}`."""
+    stated = request.headers.get("content-length", "")
+    return stated.isdigit() and int(stated) > len("{}")
 
 
 async def map_write_of(

@@ -27,6 +27,7 @@ from service.api.schemas.msgpack import (
     PackedLocalizeRequest,
     PackedMatchRequest,
 )
+from service.api.schemas.pose_graph import OptimizeRequest
 from service.api.schemas.recognition import DescribeRequest, MatchRequest
 from service.api.schemas.robots import RobotReportIn
 from service.api.schemas.scans import PackedScanResponse
@@ -42,6 +43,7 @@ _SCHEMAS: tuple[type[BaseModel], ...] = (
     MergeRequest,
     MirrorIn,
     NamedAnchorIn,
+    OptimizeRequest,
     PackedDescribeRequest,
     PackedDescribeResponse,
     PackedLocalizeRequest,
@@ -66,9 +68,10 @@ def body_of(schema: type[BaseModel], packed: type[BaseModel]) -> dict[str, Any]:
     }
 
 
-def json_body(schema: type[BaseModel]) -> dict[str, Any]:
+def json_body(schema: type[BaseModel], required: bool = True) -> dict[str, Any]:
     """Describe a body in JSON only, for a route's `openapi_extra`."""
-    return {"requestBody": {"required": True, "content": {JSON: {"schema": _reference(schema)}}}}
+    content = {JSON: {"schema": _reference(schema)}}
+    return {"requestBody": {"required": required, "content": content}}
 
 
 def packed_response(

@@ -123,6 +123,12 @@ def test_B16_unexpected_error_prints_one_line(monkeypatch: pytest.MonkeyPatch) -
     assert len(said.strip().splitlines()) == 1
 
 
+def test_events_of_an_unknown_kind_are_refused_at_once() -> None:
+    status, said = run("events", "--kind", "fixes", "--url", "http://127.0.0.1:9")
+    assert status == 1
+    assert "Unknown kind 'fixes': expected one of fix" in said
+
+
 @pytest.mark.parametrize("where", ["file/below", "file"])
 def test_B16_output_below_a_file_is_an_error(where: str, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("x")

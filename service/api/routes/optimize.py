@@ -7,13 +7,16 @@ from fastapi import APIRouter, Query, Response
 
 from placecell.core.types import Int64
 from placecell.pose_graph import BentMap
+from service.api.body.body import JSON, read_json_body
 from service.api.body.problem_json import documented
 from service.api.dependencies import MapWriteOf
+from service.api.openapi import json_body
 from service.api.schemas.pose_graph import (
     GraphLoopOut,
     GraphPartOut,
     MovedCaptureOut,
     OptimizedOut,
+    OptimizeRequest,
 )
 from service.merging.bending import OptimizedMap, movement, parts_listed
 
@@ -23,7 +26,10 @@ router = APIRouter(tags=["sharing"])
 @router.post(
     "/maps/{map}/optimize",
     summary="Remove the drift of a map",
-    responses=documented(400, 401, 403, 404, 408, 409, 412, 413, 422, 429, 500, 501, 503, 504, 507),
+    responses=documented(
+        400, 401, 403, 404, 408, 409, 412, 413, 415, 422, 429, 500, 501, 503, 504, 507
+    ),
+    openapi_extra=json_body(OptimizeRequest, required=False),
 )
 async def optimize(
     write: MapWriteOf,
@@ -40,11 +46,14 @@ async def optimize(
     The service localizes the captures of the map in other parts of the same map. Loops that drift
     does not explain, that no other loops support, or that contradict the others are rejected.
     Segments move with their captures. Roll and pitch stay. The result is one version: `dry_run`
-    returns what it would change, and restoring the version before undoes it. 501: the service has
-    no solver (`pip install "placecell[pose-graph]"`).
+    returns what it would change, and restoring the version before undoes it. The options may also
+    stand in a JSON body. 501: the service has no solver (`pip install "placecell[pose-graph]"`).
     """
     state = write.state
-    async with write.enter(state.lanes.alignments):
+    async with write.receive(state.lanes.alignments, (JSON,)) as body:
+        if body:
+            asked = await write.run(read_json_body, OptimizeRequest, body)
+            dry_run, frames = dry_run or asked.dry_run, frames or asked.frames
         result = await write.run(
             state.engine.optimize_map,
             write.name,

@@ -3,6 +3,20 @@
 from pydantic import BaseModel, Field
 
 from placecell.pose_graph.bend import Verdict
+from service.api.schemas.recognition import Request
+
+
+class OptimizeRequest(Request):
+    """Options of an optimization. An option of the body or of the query is enough."""
+
+    dry_run: bool = Field(
+        False,
+        strict=True,
+        description="Return what the optimization would move, and write nothing.",
+    )
+    frames: bool = Field(
+        False, strict=True, description="Also return each capture before and after."
+    )
 
 
 class GraphLoopOut(BaseModel):

@@ -103,6 +103,29 @@ def test_optimization_moves_laps_onto_each_other_and_can_be_undone(
     assert content(service).frame_tracks is None
 
 
+def test_dry_run_in_the_body_changes_nothing(
+    service: Any, drifting: tuple[CompactMap, np.ndarray]
+) -> None:
+    put(service, "block", drifting[0])
+    response = service.post("/maps/block/optimize", json={"dry_run": True, "frames": True})
+    assert response.json()["dry_run"], response.text
+    assert len(response.json()["frames"]) == response.json()["captures"]
+    assert content(service).frame_tracks is None
+    for body in ({"dryrun": True}, {"dry_run": "yes"}, [True]):
+        assert_problem(service.post("/maps/block/optimize", json=body), 422, "invalid-request")
+    assert content(service).frame_tracks is None
+
+
+@pytest.mark.parametrize("path", ["versions/1/restore", "compact"])
+def test_options_in_the_body_of_a_route_without_one_are_refused(
+    service: Any, drifting: tuple[CompactMap, np.ndarray], path: str
+) -> None:
+    put(service, "block", drifting[0])
+    response = service.post(f"/maps/block/{path}", json={"dry_run": True})
+    assert_problem(response, 422, "invalid-request", "in the query")
+    assert service.post(f"/maps/block/{path}", json={}).status_code == 200
+
+
 def test_segments_keep_their_place_relative_to_the_sensor(
     service: Any, drifting: tuple[CompactMap, np.ndarray]
 ) -> None:
