@@ -74,6 +74,12 @@ def evaluate_segments(
         report = evaluate_recording(recording, labels, folder, baseline)
         write_json(report, json_file)
     print_report(report)
+    if labels is not None and not report["labeled"]:
+        typer.echo(
+            "placecell: the drive has labels, but none of a known class, so the figures of the "
+            "classes are missing. Expected the numbers of SemanticKITTI, such as 10 for a car.",
+            err=True,
+        )
 
 
 def print_report(report: dict[str, Any]) -> None:

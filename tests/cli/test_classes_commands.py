@@ -5,6 +5,7 @@ import shutil
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -32,6 +33,18 @@ def test_evaluate_segments_of_a_labeled_drive(drive: Path, tmp_path: Path) -> No
     assert figures["accuracy"] > 0.5
     assert "building" in figures["classes_present"]
     assert figures["bytes"]["classes"] == 1
+
+
+@pytest.mark.slow
+def test_labels_of_unknown_classes_are_told(drive: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other"
+    shutil.copytree(drive, other)
+    for file in (other / "labels").iterdir():
+        np.full(file.stat().st_size // 4, 60_000, "<u4").tofile(file)
+    words = ["evaluate-segments", str(other), "--training", "none"]
+    result = CliRunner().invoke(app, words)
+    assert result.exit_code == 0, result.output
+    assert "none of a known class" in result.stderr
 
 
 @pytest.mark.slow
