@@ -35,26 +35,40 @@ from placecell.pose_graph.frames import (
 from placecell.pose_graph.loops import GraphMap
 from placecell.pose_graph.parameters import PoseGraphParameters
 
-ROUNDS = ((1.0, 0.3), (0.7, 0.2), (0.7, 0.15))
-"""Rounds of the estimation: largest distance between two views of a segment, and the standard
-deviation of their distance, meters. Each round pairs the views in the map that the last one
-corrected."""
+ROUNDS = (1.0, 0.7, 0.7)
+"""Largest distance between two views of a segment in each round of the estimation, meters. Each
+round pairs the views in the map that the last one corrected."""
+
+RIGHT = 0.3
+"""Standard deviation of the distance between two views of right pairs, meters, in Welsch's
+function: pairs farther apart show two different segments."""
+
+TAILS = 3.0
+"""Degrees of freedom of Student's distribution, by which a pair counts less if it is farther off
+than its box explains."""
 
 ITERATIONS = 6
-"""Number of times that the weights of the pairs are renewed in each round (Welsch's function)."""
+"""Number of times that the weights of the pairs are renewed in each round."""
 
 BETWEEN = (6.0, 16.0)
 """Way between two views, meters: those before the next one, which follows after 10 m."""
 
-DEVIATION = 0.07
-"""Standard deviation of the distance between two views of a segment whose box stays the same,
-meters."""
+DEVIATION = 0.02
+"""Smallest standard deviation of the distance between two views, along each axis, meters."""
 
-PARTLY = 0.3
-"""Standard deviation of the distance between two views, as a share of the change of the box."""
+BY_SIDE = 0.06
+"""Standard deviation of the distance between two views along an axis, as a share of the side of the
+box there: the centroid slides along a long wall, and that of a pole stays."""
 
-UNKNOWN = 0.25
-"""Change of a box that the map does not state, meters."""
+BY_CHANGE = 0.16
+"""The same, as a share of the change of this side."""
+
+UNKNOWN = 0.15
+"""The same for a segment whose box the map does not state, meters."""
+
+SIZES = (0.65, 1.2, 3.0)
+"""Longest horizontal sides, meters, that separate segments whose centroids lean toward the sensor
+by different amounts."""
 
 GATHERED = 1.0
 """Time in which the points of a view were seen, seconds: ten turns of a sensor. If the robot turns
@@ -77,11 +91,14 @@ PASSED = (0.4, 0.8, 1.2)
 """Changes of the direction to a segment, as the length of the difference of the unit vectors, that
 separate segments whose centroids move by different amounts."""
 
+AMOUNTS = (len(SIZES) + 1) * (len(PASSED) + 2)
+"""Number of amounts by which centroids move: for each size, one lean and one for each change."""
+
 BELOW = 0.3
 """Height below the sensor from which a centroid counts as low, meters: the segment may be hidden
 behind others."""
 
-LEVEL = 0.02
+LEVEL = 0.01
 """Amount by which the centroids of high segments move that are seen from nearly the same direction
 twice, meters: 1 cm in a simulated town (seed 104), 3 cm on a real drive in a city."""
 
@@ -114,15 +131,15 @@ def with_corrected_odometry(graph: GraphMap, parameters: PoseGraphParameters) ->
     if not len(tracks):
         return graph
     errors = np.zeros((len(one), 2))
-    moves = np.zeros(len(PASSED) + 1)
+    moves = np.zeros(AMOUNTS)
     heading = HEADING
     now = graph
-    for number, (apart, deviation) in enumerate(ROUNDS):
+    for number, apart in enumerate(ROUNDS):
         current().check()
         pairs = repeated_views(now, tracks, apart)
         if len(pairs) < LEAST_PAIRS:
             return graph
-        errors, moves = _estimated(now, pairs, errors, moves, deviation, heading, parameters)
+        errors, moves = _estimated(now, pairs, errors, moves, heading, parameters)
         errors[~np.isin(odometry.tracks[one], tracks)] = 0.0
         now = _corrected(graph, errors)
         if number == 0:
@@ -237,7 +254,6 @@ def _estimated(
     pairs: Int64,
     errors: Float64,
     moves: Float64,
-    deviation: float,
     heading: float,
     parameters: PoseGraphParameters,
 ) -> tuple[Float64, Float64]:
@@ -248,7 +264,6 @@ def _estimated(
         pairs: int64 (p, 2), pairs of views.
         errors: float64 (links, 2), present scale errors, and heading errors, radians.
         moves: float64 (groups,), present amounts by which centroids move, meters.
-        deviation: standard deviation of right pairs, meters.
         heading: standard deviation of the heading after one meter, degrees.
         parameters: constants of the pose graph.
 
@@ -269,8 +284,9 @@ def _estimated(
     for _ in range(ITERATIONS):
         current().check()
         off = (seen - effects @ unknown).reshape(2, -1)
-        kept = np.exp(-(off**2).sum(axis=0) / (2 * deviation**2))
-        weights = np.tile(kept / variances, 2)
+        kept = np.exp(-(off**2).sum(axis=0) / (2 * RIGHT**2))
+        tails = (TAILS + 1) / (TAILS + off**2 / variances)
+        weights = (kept * tails / variances).ravel()
         normal = effects.T @ effects.multiply(weights[:, None]) + prior
         unknown = spsolve(normal.tocsc(), effects.T @ (weights * seen))
     return unknown[: errors.size].reshape(2, -1).T.copy(), unknown[errors.size :]
@@ -340,16 +356,19 @@ def _gathered(frames: GraphFrames) -> Float64:
 
 
 def _variances(graph: GraphMap, pairs: Int64) -> Float64:
-    """Return the variance of the distance between the views of each pair, m^2, float64 (p,).
+    """Return the variance of the distance between the views of each pair, m^2, float64 (2, p).
 
-    If a part of a segment becomes visible or hidden, its box and its centroid change.
+    Rows are the x and the y axis. If a part of a segment becomes visible or hidden, its box and its
+    centroid change.
     """
-    change = np.full(len(pairs), UNKNOWN)
+    variances = np.full((2, len(pairs)), UNKNOWN**2)
     if graph.sides is not None:
         sides = graph.sides[pairs]
         known = (sides > 0).all(axis=(1, 2))
-        change[known] = np.abs(sides[known, 1] - sides[known, 0]).max(axis=1)
-    return np.asarray(DEVIATION**2 + (PARTLY * change) ** 2)
+        change, side = sides[known, 1] - sides[known, 0], sides[known].max(axis=1)
+        by_box = (BY_CHANGE * change) ** 2 + (BY_SIDE * side) ** 2
+        variances[:, known] = by_box.T
+    return DEVIATION**2 + variances
 
 
 def _found_heading(frames: GraphFrames, turns: Float64, tracks: Int64) -> float:
@@ -381,20 +400,26 @@ def _ahead(graph: GraphMap, pairs: Int64) -> Float64:
 
 
 def _movements(graph: GraphMap, pairs: Int64, ahead: Float64) -> csr_matrix:
-    """Return how the movement of centroids moves the later view of each pair, (2 p, groups).
+    """Return how the movement of centroids moves the later view of each pair, (2 p, amounts).
 
-    A centroid moves with the robot, by an amount for each group of segments: the low ones that are
-    seen from nearly the same direction, and those of each range of the change of direction.
+    A centroid leans toward the sensor, by an amount for each size of segments. It also moves ahead
+    with the robot, by an amount for each size and each range of the change of direction. High
+    segments that are seen from nearly the same direction only lean.
     """
     arms = graph.frames.positions[graph.captures[pairs]] - graph.centroids[pairs]
     flat = arms[..., :2]
     directions = flat / np.maximum(np.linalg.norm(flat, axis=2), 1.0)[..., None]
-    change = np.linalg.norm(directions[:, 1] - directions[:, 0], axis=1)
-    group = np.searchsorted(PASSED, change)
+    leans = directions[:, 1] - directions[:, 0]
+    longest = np.zeros(len(pairs)) if graph.sides is None else graph.sides[pairs].max(axis=(1, 2))
+    size = np.searchsorted(SIZES, longest)
+    group = np.searchsorted(PASSED, np.linalg.norm(leans, axis=1))
     moving = np.flatnonzero((group > 0) | (arms[:, 0, 2] > BELOW))
-    rows = np.concatenate([moving, moving + len(pairs)])
-    size = (2 * len(pairs), len(PASSED) + 1)
-    return csr_matrix((ahead[moving].T.ravel(), (rows, np.tile(group[moving], 2))), shape=size)
+    every = np.arange(2 * len(pairs))
+    rows = np.concatenate([every, moving, moving + len(pairs)])
+    ahead_of = (1 + group) * (len(SIZES) + 1) + size
+    columns = np.concatenate([np.tile(size, 2), np.tile(ahead_of[moving], 2)])
+    values = np.concatenate([leans.T.ravel(), ahead[moving].T.ravel()])
+    return csr_matrix((values, (rows, columns)), shape=(2 * len(pairs), AMOUNTS))
 
 
 def _prior(

@@ -236,6 +236,55 @@ def test_segments_whose_boxes_change_count_less() -> None:
     assert by_boxes < 0.85 * without
 
 
+def leaning(graph: Map, amount: float) -> Map:
+    """Return a map with things on the right-hand side only, which lean toward the sensor."""
+    arms = graph.centroids - graph.frames.positions[graph.captures]
+    yaws = graph.frames.yaws[graph.captures]
+    right = np.cos(yaws) * arms[:, 1] - np.sin(yaws) * arms[:, 0] < 0
+    flat = arms[right, :2]
+    centroids = graph.centroids[right]
+    centroids[:, :2] -= amount * flat / np.linalg.norm(flat, axis=1)[:, None]
+    sides = np.full((len(centroids), 2), 0.5)
+    return replace(graph, centroids=centroids, captures=graph.captures[right], sides=sides)
+
+
+def test_way_stays_straight_though_things_on_one_side_lean_to_the_sensor() -> None:
+    graph, _ = drifting(np.zeros(79), np.zeros(79))
+    _, yaws = square_path(20, 1)
+    turned = []
+    for amount in (0.0, 0.3):
+        after = with_corrected_odometry(leaning(graph, amount), PARAMETERS).frames.yaws
+        off = np.unwrap(after) - np.unwrap(yaws)
+        turned.append(np.degrees(off[-1] - off[0]))
+    assert abs(turned[1] - turned[0]) < 0.3
+
+
+def along_walls(graph: Map, seed: int) -> Map:
+    """Return a map in which half of the segments are long walls, whose centroids slide along."""
+    rng = np.random.default_rng(seed)
+    wall = np.arange(len(graph.captures)) % 2 == 0
+    sides = np.full((len(wall), 2), 0.4)
+    sides[wall, 0] = 6.0
+    centroids = graph.centroids.copy()
+    centroids[wall, 0] += rng.normal(0.0, 0.25, int(wall.sum()))
+    return replace(graph, centroids=centroids, sides=sides)
+
+
+def test_long_walls_count_less_along_their_long_side() -> None:
+    _, yaws = square_path(20, 1)
+    graph, _ = drifting(np.zeros(79), np.radians(0.3) * np.sign(np.sin(np.arange(79) / 8)))
+    errors = []
+    for seed in range(4):
+        known = along_walls(graph, seed)
+        assert known.sides is not None
+        for each in (replace(known, sides=known.sides[:, ::-1]), known):
+            after = with_corrected_odometry(each, PARAMETERS).frames.yaws
+            off = np.unwrap(after) - np.unwrap(yaws)
+            errors.append(np.sqrt(((off[20:] - off[:-20]) ** 2).mean()))  # over 100 m
+    turned, by_boxes = np.reshape(errors, (-1, 2)).mean(axis=0)
+    assert by_boxes < 0.8 * turned
+
+
 @pytest.mark.parametrize("count", [0, 3])
 def test_few_segments_correct_nothing(count: int) -> None:
     graph, _ = drifting(wandering(79), np.zeros(79))
