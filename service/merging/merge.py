@@ -101,7 +101,7 @@ class _JoinedMaps:
         written: the same after the judgment: the segments to write.
         refreshed: ids of segments whose counts alone the judgment changed.
         outcomes: outcome of each map that was merged, by number.
-        reserved: ids that were reserved for the new segments.
+        reserved: ids that were reserved for the new segments, in the order of their use.
     """
 
     before: MapSnapshot | None
@@ -111,7 +111,7 @@ class _JoinedMaps:
     written: CompactMap
     refreshed: UInt32
     outcomes: dict[int, PartOutcome]
-    reserved: range | None
+    reserved: tuple[range, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +184,7 @@ class Merger:
             )
         self.check()
         # This may take minutes: nobody waits for it, and a write makes it void.
-        free: range | None = None
+        free: tuple[range, ...] = ()
         for _ in range(TRIES):
             joined = self._joined(name, target, plan, joining, free)
             with maps.writing(name):
@@ -221,7 +221,7 @@ class Merger:
         before: MapSnapshot | None,
         plan: MergePlan,
         joining: Mapping[int, float],
-        free: range | None = None,
+        free: tuple[range, ...] = (),
     ) -> _JoinedMaps:
         """Join these parts, by number, each with its slack, on the newest version of the map.
 
@@ -247,17 +247,18 @@ class Merger:
         # A merged map without segments takes the frame of the first map.
         target = present if present is not None and len(present) else empty_merged_map(plan.maps[0])
         first_id = 0 if snapshot is None else snapshot.head.next_id
-        first_id = first_id if free is None else free.start
+        given, left = next(iter(free), None), free[1:]
+        first_id = first_id if given is None else given.start
         try:
             content, found, reserved = self._with_ids(
-                snapshot, target, parts, same, first_id, name, free
+                snapshot, target, parts, same, first_id, name, given
             )
             bent = None
             if not self.rigid:
                 begin = first_id + sum(each.added for each in found)
                 begin = begin if reserved is None else reserved.stop
-                bent, found = self._bent(
-                    snapshot, content, parts, same, begin, name, model, plan, found
+                bent, found, left = self._bent(
+                    snapshot, content, parts, same, begin, name, model, plan, found, left
                 )
         except MapFileError as error:
             raise Problem(
@@ -274,7 +275,8 @@ class Merger:
                 refreshed = np.intersect1d(untouched, present.ids)
             written = judged.content
         outcomes = dict(zip(joining, found, strict=True))
-        return _JoinedMaps(snapshot, present, content, bent, written, refreshed, outcomes, reserved)
+        ids = left if reserved is None else (reserved, *left)
+        return _JoinedMaps(snapshot, present, content, bent, written, refreshed, outcomes, ids)
 
     def _with_ids(
         self,
@@ -312,16 +314,19 @@ class Merger:
         model: Model,
         plan: MergePlan,
         outcomes: list[PartOutcome],
-    ) -> tuple[CompactMap | None, list[PartOutcome]]:
+        free: tuple[range, ...],
+    ) -> tuple[CompactMap | None, list[PartOutcome], tuple[range, ...]]:
         """Bend the merged map, and join again, until another merge would change nothing.
 
         Captures that were moved show other segments of the same objects, so some repeats are none
         any more.
 
         Returns:
-            The merged map; None if no capture moved; and the outcome of each part.
+            The merged map; None if no capture moved; the outcome of each part; and the ids that are
+            reserved: an earlier try reserved the first ones (`free`).
         """
         bent, loops = None, plan.loops
+        ids: list[range] = []
         for _ in range(BENDS):
             self.check()
             now = content if bent is None else bent
@@ -331,7 +336,10 @@ class Merger:
             bent = after
             if same is None:
                 break
-            joined, more, reserved = self._with_ids(snapshot, bent, parts, same, first_id, name)
+            given, free = next(iter(free), None), free[1:]
+            begin = first_id if given is None else given.start
+            joined, more, reserved = self._with_ids(snapshot, bent, parts, same, begin, name, given)
+            ids += [] if reserved is None else [reserved]
             changed, removed = difference(bent, joined)
             if not len(changed) and not len(removed):
                 break
@@ -339,7 +347,7 @@ class Merger:
             first_id = first_id if reserved is None else reserved.stop
             bent, loops = joined, None  # the loops that the next merge would find
             outcomes = in_sequence(outcomes, more)
-        return bent, outcomes
+        return bent, outcomes, (*ids, *free)
 
     def _write(self, name: str, plan: MergePlan, joined: _JoinedMaps) -> MergeResult:
         """Store the merged map; the caller holds its write lock."""

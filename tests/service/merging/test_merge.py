@@ -22,6 +22,7 @@ from service.maps.layers import MapLayers
 from service.maps.sql.owners import Owners
 from service.maps.sql.tables import row_of, save_head
 from service.merging import alignment
+from service.merging import merge as merge_module
 from service.merging import plan as merging
 from tests.service.core.test_auth import made
 from tests.service.merging.merged_map_builders import (
@@ -286,6 +287,35 @@ def test_merge_takes_one_id_per_new_segment(stocked: Any, maps: dict[str, Compac
     new = range(first + 2, first + 2 + part["added"])
     assert content(stocked).ids.tolist() == [*range(first), *new]
     assert next_id(stocked) == new.stop
+
+
+def test_merge_that_is_tried_again_takes_the_ids_of_its_first_try(
+    stocked: Any, maps: dict[str, CompactMap], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    merge(stocked, "site", ["east", "west"])
+    first = next_id(stocked)
+    tries: list[bool] = []
+
+    def written_meanwhile(*_: Any) -> bool:
+        tries.append(True)
+        return len(tries) > 1
+
+    def two_fewer(content: CompactMap, *_: Any) -> tuple[None, CompactMap | None]:
+        """Take two of the new segments away, so that the next join adds them with new ids."""
+        calls.append(len(tries))
+        is_first = calls.count(len(tries)) == 1
+        return None, take(content, np.arange(len(content) - 2)) if is_first else None
+
+    calls: list[int] = []
+    monkeypatch.setattr(merge_module, "_is_same", written_meanwhile)
+    monkeypatch.setattr(merge_module, "bend_content", two_fewer)
+    told = merge(stocked, "site", ["north"], rigid=False)
+    assert told.is_success, told.text
+    assert (len(tries), calls) == (2, [0, 0, 1, 1])
+    new = content(stocked).ids[content(stocked).ids > first]
+    assert next_id(stocked) == new.max() + 1
+    # Two new segments were taken away after the join, and joined with two further ids.
+    assert new.max() - first == len(new) + 2
 
 
 def test_views_of_new_segments_name_a_stored_segment(
