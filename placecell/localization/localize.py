@@ -207,8 +207,15 @@ def judge(
             f"{_position_text(one)} and at {_position_text(other)}, "
             f"{np.linalg.norm(one - other):.1f} m apart."
         )
-    elif reason == "inconsistent":
+    elif reason == "inconsistent" and not is_turn_known(best, parameters):
         detail = f"The {len(best)} inlier segments do not determine the rotation."
+    elif reason == "inconsistent":
+        detail = (
+            f"The {len(best)} inlier segments stand at {spots_of(best, parameters)} places; "
+            f"{parameters.least_segments} or more are needed. Segments less than "
+            f"{parameters.one_spot:g} m apart count as one place, for example the parts of one "
+            "tree."
+        )
     elif probability <= threshold:
         reason = "inconsistent"
         detail = (
@@ -242,9 +249,36 @@ def rejection_of(
     """
     if rival >= parameters.ambiguous:
         return "ambiguous", 1 / (1 + rival)
-    if not np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw:
+    if not is_turn_known(best, parameters):
         return "inconsistent", chance_of_direction(best.rotation_deviation)
+    if spots_of(best, parameters) < parameters.least_segments:
+        return "inconsistent", parameters.least_probability
     return None, 1.0
+
+
+def is_turn_known(best: Hypothesis, parameters: LocalizationParameters) -> bool:
+    """Return whether the inliers of a hypothesis determine its rotation."""
+    return bool(np.degrees(best.rotation_deviation) <= parameters.undetermined_yaw)
+
+
+def spots_of(best: Hypothesis, parameters: LocalizationParameters) -> int:
+    """Return at how many places the inliers of a hypothesis stand, at most `least_segments`.
+
+    A sensor with few beams sees one tree as several segments, one above the other. If a pose puts
+    one of them right, it puts all of them right, so together they are one piece of evidence.
+
+    Args:
+        best: the hypothesis.
+        parameters: distance of two places; it is horizontal if gravity is known.
+    """
+    left = best.pose.apply(best.source)
+    if parameters.model == "yaw":
+        left = left[:, :2]
+    spots = 0
+    while len(left) and spots < parameters.least_segments:
+        left = left[np.linalg.norm(left - left[0], axis=1) >= parameters.one_spot]
+        spots += 1
+    return spots
 
 
 def places_of(best: Hypothesis, other: Hypothesis) -> tuple[Float64, Float64]:

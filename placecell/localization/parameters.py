@@ -62,7 +62,9 @@ class LocalizationParameters:
 
     # Judgment.
     least_segments: int = 4
-    """Smallest number of inliers: three fit somewhere by chance."""
+    """Smallest number of inliers, and of places where they stand: three fit somewhere by chance."""
+    one_spot: float = 1.0
+    """Inliers that are closer than this stand at one place."""
     apart: float = 3.0
     apart_yaw: float = 10.0
     """Poses that differ by more than `apart` or `apart_yaw` are different places."""

@@ -271,6 +271,23 @@ def test_a_pole_does_not_determine_the_rotation() -> None:
     assert found.probability == 0
 
 
+def test_parts_of_one_tree_are_one_piece_of_evidence() -> None:
+    """A sensor with few beams sees a tree as parts above each other, up to 0.3 m apart in plan."""
+    trees = np.array([[0.0, 0, 0], [30, 0, 0], [10, 20, 0], [-15, 8, 0]])
+    parts = np.array([[0.0, 0, 1], [0.3, 0, 3], [0, 0.2, 5]])
+    four = (trees[:, None] + parts).reshape(-1, 3)
+    three = four[:9]
+    assert_right(localize(exact(four)), Pose.of_yaw(0, np.full(3, 100.0)))
+    found = localize(exact(three))
+    assert found.best is not None
+    assert len(found.best) == 9
+    assert found.reason == "inconsistent"
+    assert "The 9 inlier segments stand at 3 places; 4 or more are needed" in found.detail
+    assert found.probability <= 0.5
+    # Without gravity, parts above each other are as good as any others.
+    assert "places" not in localize(exact(three), SE3).detail
+
+
 def test_the_chance_of_a_direction_by_hand() -> None:
     assert chance_of_direction(np.radians(3.0)) == pytest.approx(0.6827, abs=1e-4)
     assert chance_of_direction(np.radians(1.0)) == pytest.approx(0.9973, abs=1e-4)
