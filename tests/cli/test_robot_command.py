@@ -91,3 +91,10 @@ def test_missing_source_is_told(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["robot", str(tmp_path / "missing"), "--map", "yard"])
     assert done.exit_code == 1
     assert "Check the path" in done.output
+
+
+def test_drive_without_a_segment_is_told(tmp_path: Path) -> None:
+    short, _ = two_robots(tmp_path, seed=4, scans=2, columns=64)
+    words = ["--service", "http://127.0.0.1:9", "--map", "yard", "--wait", "0"]
+    done = run(short, *words, "--spool-mb", "inf")
+    assert "nothing is mapped: 2 scans gave no segment" in done.stderr

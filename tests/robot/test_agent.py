@@ -1,6 +1,7 @@
 """The agent: each transition of its state, with fakes of link and engine."""
 
 import errno
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -318,6 +319,20 @@ def test_error_is_told_once_though_its_request_ids_differ(street: Street) -> Non
     assert len(told) == 1
 
 
+def test_agent_may_wait_without_a_limit(street: Street) -> None:
+    agent = RobotAgent(
+        settings(upload=True),
+        SlowLink(),
+        [],
+        FakeClock(),
+        FakeEngine(),  # type: ignore[arg-type]
+    )
+    drive(agent, street, steps(0, 12))
+    agent.finish()
+    assert agent.wait_for_uploads(float("inf"))  # a real worker's wait takes no infinity
+    assert agent.close().uploads > 0
+
+
 def test_refused_report_is_told_once(street: Street) -> None:
     link, clock = DeafLink(), FakeClock()
     agent = new_agent(settings(robot="robot 7"), link, clock=clock)
@@ -346,6 +361,14 @@ class FullOutput(NoOutput):
     def scan(self, *_: object) -> None:
         self.scans += 1
         raise OSError(errno.ENOSPC, "No space left on device")
+
+
+class SlowLink(FakeLink):
+    """Link whose uploads take longer than a scan."""
+
+    def upload(self, name: str, delta: bytes, create: bool) -> None:
+        time.sleep(0.2)
+        super().upload(name, delta, create)
 
 
 class DeafLink(FakeLink):
