@@ -56,7 +56,11 @@ class ServiceLink:
         ignore = request.ignore or None
         try:
             found = self._asking.localize(
-                seen, maps=[request.map], session=request.session, ignore=ignore
+                seen,
+                maps=[request.map],
+                session=request.session,
+                hints=request.hints,
+                ignore=ignore,
             )
         except (ServiceError, httpx.TransportError) as error:
             raise as_link_error(error) from error

@@ -8,6 +8,7 @@ from typing import Self
 
 import numpy as np
 from placecell_client import CompactMap
+from placecell_client.hints import Hints, SensorPose
 from scipy.spatial import cKDTree
 
 from evaluation.poses.recordings import recording_of
@@ -256,7 +257,8 @@ def localize_query(
     """Localize a query in one map; return the result and the time it took, milliseconds."""
     seen = Descriptors(engine.model.id, query.codes, None, query.centroids, {})
     started = perf_counter()
-    result = engine.localize(seen, [name], k, parameters, session)
+    hints = Hints(sensor=SensorPose(tuple(query.sensor.tolist())))
+    result = engine.localize(seen, [name], k, parameters, session, hints=hints)
     return result[0].localization, 1e3 * (perf_counter() - started)
 
 

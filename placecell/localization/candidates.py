@@ -18,12 +18,17 @@ class Candidates:
         rows: int64 (n, k), row of each candidate in the map.
         places: float64 (n, k, 3), meters, centroid of each candidate in the map's frame.
         probabilities: float64 (n, k), match probability of query and candidate, 0 to 1.
+        sensor: float64 (3,), meters, sensor position in the robot's frame; None if it is not known.
+        captures: float64 (n, k, 3), meters, sensor position in the map's frame from which each
+            candidate was seen; None if it is not known.
     """
 
     centroids: Float64
     rows: Int64
     places: Float64
     probabilities: Float64
+    sensor: Float64 | None = None
+    captures: Float64 | None = None
 
     def __post_init__(self) -> None:
         """Check the shapes of the arrays.
@@ -49,6 +54,7 @@ class Candidates:
             rows=self.rows[queries],
             places=self.places[queries],
             probabilities=self.probabilities[queries],
+            captures=None if self.captures is None else self.captures[queries],
         )
 
     @cached_property

@@ -1,6 +1,6 @@
 """Correspondences: pairs of a query segment and a place of the map, with weights."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from placecell.core.jit import compiled
 from placecell.core.types import Float64, Int32, Int64
 from placecell.localization.candidates import Candidates
 from placecell.localization.parameters import LocalizationParameters
+from placecell.localization.pose import Pose
+from placecell.localization.viewpoint import view_shifts
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,6 +26,9 @@ class Correspondences:
         target: float64 (m, 3), meters, the row's centroid in the map's frame.
         weights: float64 (m,), more than 0.
         usable: number of queries that have candidates.
+        sensor: float64 (3,), meters, sensor position in the robot's frame; None if it is not known.
+        captures: float64 (m, 3), meters, sensor position in the map's frame from which the row was
+            seen; None if it is not known.
     """
 
     queries: Int64
@@ -33,6 +38,8 @@ class Correspondences:
     target: Float64
     weights: Float64
     usable: int
+    sensor: Float64 | None = None
+    captures: Float64 | None = None
 
     def __len__(self) -> int:
         return len(self.queries)
@@ -47,7 +54,16 @@ class Correspondences:
             self.target[indices],
             self.weights[indices],
             self.usable,
+            self.sensor,
+            None if self.captures is None else self.captures[indices],
         )
+
+    def seen_at(self, pose: Pose) -> "Correspondences":
+        """Return them with the targets that the robot would see at a pose (see `view_shifts`)."""
+        if self.sensor is None or self.captures is None:
+            return self
+        shifts = view_shifts(self.target, self.captures, pose.apply(self.sensor))
+        return replace(self, target=self.target + shifts)
 
 
 def correspond(candidates: Candidates, parameters: LocalizationParameters) -> Correspondences:
@@ -68,11 +84,13 @@ def correspond(candidates: Candidates, parameters: LocalizationParameters) -> Co
     queries, columns = np.nonzero(beliefs)
     rows = candidates.rows[queries, columns]
     targets = candidates.places[queries, columns]
+    captured = targets if candidates.captures is None else candidates.captures[queries, columns]
     belief = beliefs[queries, columns]
     if len(belief) > parameters.most_candidates:
         likeliest = np.lexsort((rows, -belief))[: parameters.most_candidates]
         queries, rows = queries[likeliest], rows[likeliest]
         targets, belief = targets[likeliest], belief[likeliest]
+        captured = captured[likeliest]
     places = number_places(rows, targets, parameters.same_place)
     # The best row first within each pair of query and place; ties by row.
     order = np.lexsort((rows, -belief, places, queries))
@@ -91,6 +109,8 @@ def correspond(candidates: Candidates, parameters: LocalizationParameters) -> Co
         targets[order][starts],
         np.log1p(share / (parameters.unlikely * np.maximum(claims, 1.0))),
         int(np.count_nonzero(total)),
+        candidates.sensor,
+        None if candidates.captures is None else captured[order][starts],
     )
     # Queries by position, not by number; each query's correspondences together, heaviest first.
     order = np.lexsort((found.rows, *found.source.T))

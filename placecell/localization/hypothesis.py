@@ -1,7 +1,7 @@
 """Pose hypotheses: search for poses of the robot that many correspondences support."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,11 +10,12 @@ from placecell.core.types import Float64, Int64
 from placecell.localization.clique import heaviest_clique
 from placecell.localization.consistency import consistent
 from placecell.localization.correspondences import Correspondences
-from placecell.localization.covariance import covariance_of, rotation_deviation
+from placecell.localization.covariance import common_error, covariance_of, rotation_deviation
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.refinement import refine, residuals
 from placecell.localization.registration import register
+from placecell.localization.viewpoint import UNCERTAINTY, trust_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,6 +104,64 @@ def _grown(pose: Pose, found: Correspondences, parameters: LocalizationParameter
         source=agreeing.source,
         residuals=residuals(pose, agreeing),
     )
+
+
+def seen_by_robot(
+    hypothesis: Hypothesis, found: Correspondences, parameters: LocalizationParameters
+) -> Hypothesis:
+    """Refine a hypothesis with the centroids that the robot would see (see `view_shifts`).
+
+    Only the pose, its covariance and its inliers change, not the scores. The covariance includes
+    the error of the shift, which all inliers share, so that their residuals do not show it.
+
+    Args:
+        hypothesis: hypothesis of these correspondences.
+        found: correspondences; without the positions of the sensors, the hypothesis stays.
+        parameters: gates, kernel and limits.
+    """
+    if found.sensor is None or found.captures is None:
+        return hypothesis
+    seen = found.seen_at(hypothesis.pose)
+    shifts = seen.target - found.target
+    common, trust = UNCERTAINTY * shifts, trust_of(shifts)
+    pose, support = refine(hypothesis.pose, seen, parameters, trust)
+    if len(support) < parameters.least_segments:
+        return hypothesis
+    # How large the shift is here, as far as the residuals show it.
+    amount, deviation = common_error(
+        pose,
+        seen.source[support],
+        seen.target[support],
+        parameters,
+        common[support],
+        trust[support],
+    )
+    seen = replace(seen, target=seen.target + max(amount, -1 / UNCERTAINTY) * common)
+    pose, support = refine(pose, seen, parameters, trust)
+    support = support[np.argsort(found.queries[support])]
+    agreeing = seen.take(support)
+    if len(agreeing) < parameters.least_segments:
+        return hypothesis
+    refined = replace(
+        hypothesis,
+        pose=pose,
+        covariance=covariance_of(
+            pose,
+            agreeing.source,
+            agreeing.target,
+            parameters,
+            deviation * common[support],
+            trust[support],
+        ),
+        queries=agreeing.queries,
+        rows=agreeing.rows,
+        source=agreeing.source,
+        residuals=residuals(pose, agreeing),
+    )
+    is_determined = np.degrees(refined.rotation_deviation) <= parameters.undetermined_yaw
+    middle = hypothesis.source.mean(axis=0)
+    is_same = same_place(pose, hypothesis.pose, middle, parameters)
+    return refined if is_determined and is_same else hypothesis
 
 
 def distinct(

@@ -137,8 +137,13 @@ def localize_jointly(
             match_guided(each, query.candidates, query.there, parameters, beliefs)
             for each in places.hypotheses
         )
-        found.append(PlaceHypotheses(hypotheses, places.usable))
-    return judge_jointly(queries, found, parameters, link, only_rivals)
+        found.append(replace(places, hypotheses=hypotheses))
+    return [
+        replace(each, localization=places.seen_by_robot(each.localization, parameters))
+        for each, places in zip(
+            judge_jointly(queries, found, parameters, link, only_rivals), found, strict=True
+        )
+    ]
 
 
 FEW, LOOSER = 20, 2.0

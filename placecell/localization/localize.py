@@ -1,7 +1,7 @@
 """Localization in one map: the steps from candidates to a pose."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import erf
 from typing import Literal
 
@@ -10,10 +10,10 @@ import numpy as np
 from placecell.core.types import Float64
 from placecell.localization.candidates import Candidates
 from placecell.localization.confidence import Confidence, SegmentNeeds, features_of, shipped
-from placecell.localization.correspondences import correspond
+from placecell.localization.correspondences import Correspondences, correspond
 from placecell.localization.evidence import Evidence
 from placecell.localization.guided_matching import CandidateSegments, MapSegments, match_guided
-from placecell.localization.hypothesis import Hypothesis, find_hypotheses
+from placecell.localization.hypothesis import Hypothesis, find_hypotheses, seen_by_robot
 from placecell.localization.overlap import SegmentsInMap, explained_shares
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
@@ -94,7 +94,8 @@ def localize(
         return unknown(places.usable, parameters, confidence)
     there = there or CandidateSegments(candidates)
     hypotheses = [match_guided(each, candidates, there, parameters) for each in places.hypotheses]
-    return judge(hypotheses, candidates, there, places.usable, parameters, confidence, evidence)
+    told = judge(hypotheses, candidates, there, places.usable, parameters, confidence, evidence)
+    return places.seen_by_robot(told, parameters)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,10 +105,21 @@ class PlaceHypotheses:
     Attributes:
         hypotheses: hypotheses at different places, best first.
         usable: number of queries that have candidates.
+        correspondences: the correspondences that the hypotheses come from; None if there are none.
     """
 
     hypotheses: tuple[Hypothesis, ...]
     usable: int
+    correspondences: Correspondences | None = None
+
+    def seen_by_robot(self, told: Localization, parameters: LocalizationParameters) -> Localization:
+        """Return a localization with the pose that the robot's own view of the segments gives.
+
+        Probability, reason and the hypotheses for later requests stay: they are about the place.
+        """
+        if told.best is None or self.correspondences is None:
+            return told
+        return replace(told, best=seen_by_robot(told.best, self.correspondences, parameters))
 
 
 def find_places(
@@ -125,9 +137,8 @@ def find_places(
         return PlaceHypotheses((), correspondences.usable)
     voted = most_voted(correspondences, parameters)
     past = evidence.guesses(voted.source.mean(axis=0)) if evidence else []
-    return PlaceHypotheses(
-        tuple(find_hypotheses(voted, parameters, [*past, *guesses])), correspondences.usable
-    )
+    found = find_hypotheses(voted, parameters, [*past, *guesses])
+    return PlaceHypotheses(tuple(found), correspondences.usable, voted)
 
 
 def unknown(

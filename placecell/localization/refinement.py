@@ -15,13 +15,22 @@ NARROWING = 0.8
 
 
 def refine(
-    pose: Pose, found: Correspondences, parameters: LocalizationParameters
+    pose: Pose,
+    found: Correspondences,
+    parameters: LocalizationParameters,
+    trust: Float64 | None = None,
 ) -> tuple[Pose, Int64]:
     """Register a pose with its inliers repeatedly, until they no longer change.
 
     Iteratively reweighted least squares with the kernel of Geman and McClure, whose weight is
     1 / (1 + (r/c)^2)^2, and a gate that narrows in each round, similar to graduated non-convexity
     (Yang et al. 2020).
+
+    Args:
+        pose: initial pose.
+        found: correspondences.
+        parameters: gates and kernel.
+        trust: float64 (m,), factor of each correspondence's weight; None: 1.
 
     Returns:
         The pose, and the indices of its inliers, one to one, int64 (inliers,).
@@ -32,6 +41,8 @@ def refine(
         if not len(agreeing):
             break
         weights = kernel(distances, parameters.kernel)
+        if trust is not None:
+            weights = weights * trust[agreeing]
         pose = register(found.source[agreeing], found.target[agreeing], weights, parameters)
         before, last = agreeing, gate
         gate = max(parameters.gate, NARROWING * gate)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from placecell_client import MapCopy
+from placecell_client.hints import Hints, SensorPose
 
 from placecell.core.types import Float64, Int8, UInt8
 from robot.core.map_to_odom import MapToOdom
@@ -69,6 +70,12 @@ class FixRequest:
     session: str
     classes: UInt8 | None = None
     ignore: tuple[str, ...] = ()
+
+    @property
+    def hints(self) -> Hints:
+        """Return the sensor's position, from which the sides of the segments are seen."""
+        x, y, z = self.odom_pose[:3, 3].tolist()
+        return Hints(sensor=SensorPose((x, y, z)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -168,7 +168,9 @@ class LocalEngine:
         )
         wanted = ClassFilter.of(None, request.ignore)
         try:
-            found = self._engine.localize(seen, maps=[name], session=request.session, wanted=wanted)
+            found = self._engine.localize(
+                seen, maps=[name], session=request.session, hints=request.hints, wanted=wanted
+            )
         except Problem as error:
             return FixAnswer(request, "local", None, None, 0.0, str(error))
         best = found[0].localization if len(found) else None

@@ -186,6 +186,16 @@ class MapLayers:
         values[above] = recent[rows[above] - len(self.base)]
         return values
 
+    def capture_positions(self, rows: Int64) -> Float64:
+        """Return the sensor position from which each row was seen, (..., 3), meters."""
+        above = rows >= len(self.base)
+        if not above.any():
+            return np.asarray(self.base.frame_positions[self.base.frame_index[rows]])
+        positions = np.empty((*rows.shape, 3))
+        for layer, here, first in ((self.base, ~above, 0), (self.recent, above, len(self.base))):
+            positions[here] = layer.frame_positions[layer.frame_index[rows[here] - first]]
+        return positions
+
     def presence(self, rows: Int64) -> Float64 | None:
         """Return how surely the segments of rows still stand there, 0 to 1, as an array like rows.
 

@@ -106,12 +106,14 @@ class ResolvedHints:
         sensor: pose of the sensor in the request's frame.
         used: names of the hints that narrow something.
         unused: hints that cannot narrow a map.
+        is_sensor_given: whether the request states the pose of the sensor.
     """
 
     areas: dict[str, HintedArea]
     sensor: SensorPose
     used: tuple[str, ...]
     unused: tuple[UnusedHint, ...]
+    is_sensor_given: bool = False
 
     def allow(self, snapshot: MapSnapshot, pose: Pose) -> bool:
         """Return whether a pose in a map contradicts no hint."""
@@ -212,7 +214,13 @@ def resolve(
         used |= {"near", "yaw", "last_pose"} | ({"geo"} if anchor is not None else set())
     given = {name for name in NAMES if getattr(hints, name) is not None}
     used = given & (used | {"maps", "tags"})
-    return ResolvedHints(areas, hints.sensor or sensor, tuple(sorted(used)), tuple(unused))
+    return ResolvedHints(
+        areas,
+        hints.sensor or sensor,
+        tuple(sorted(used)),
+        tuple(unused),
+        hints.sensor is not None,
+    )
 
 
 def _includes(

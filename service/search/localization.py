@@ -76,6 +76,7 @@ def map_query(
     evidence: Evidence | None = None,
     guesses: Callable[[MapSegments, Sequence[Hypothesis]], tuple[Pose, ...]] | None = None,
     wanted: ClassFilter | None = None,
+    sensor: Float64 | None = None,
 ) -> MapQuery:
     """Search the candidates in one map.
 
@@ -89,6 +90,7 @@ def map_query(
         guesses: returns poses to try as well, given the map's segments, compared with the codes,
             and the hypotheses that were found without them.
         wanted: filter of the map's segments.
+        sensor: sensor position in the robot's frame, float64 (3,), meters; None if it is not known.
     """
     nearest = nearest_segments(codes, model, (snapshot,), k, wanted=wanted)
     there = StoredNeighborhood(codes, model, snapshot, wanted)
@@ -96,8 +98,16 @@ def map_query(
     probabilities = there.match_probabilities(queries, nearest.rows.ravel()).reshape(
         nearest.rows.shape
     )
-    places = snapshot.layers.column("centroids", nearest.rows)
-    candidates = Candidates(centroids, nearest.rows, places, probabilities)
+    layers = snapshot.layers
+    places = layers.column("centroids", nearest.rows)
+    candidates = Candidates(
+        centroids,
+        nearest.rows,
+        places,
+        probabilities,
+        sensor=sensor,
+        captures=None if sensor is None else layers.capture_positions(nearest.rows),
+    )
     return MapQuery(
         name=snapshot.name,
         model=model.id,
@@ -235,8 +245,11 @@ def localize(
 
     sensor = SensorPose((0.0, 0.0, 0.0) if query.sensor is None else query.sensor.tolist())
     hints = None if resolve_hints is None else resolve_hints(sensor)
+    seen_from = query.sensor
+    if hints is not None and hints.is_sensor_given:
+        seen_from = np.asarray(hints.sensor.position, np.float64)
     answers = localize_among(
-        groups, query.k, parameters, timing, parts, evidence, hints, query.wanted
+        groups, query.k, parameters, timing, parts, evidence, hints, query.wanted, seen_from
     )
     for each in answers:
         if session and each.is_full:
@@ -344,6 +357,7 @@ def localize_among(
     evidence: Callable[[MapSnapshot], Evidence | None],
     hints: ResolvedHints | None = None,
     wanted: ClassFilter | None = None,
+    sensor: Float64 | None = None,
 ) -> list[MapLocalization]:
     """Localize the robot in any of the maps, the most probable first.
 
@@ -360,6 +374,8 @@ def localize_among(
         evidence: gives the result of the robot's earlier requests in a map.
         hints: where the robot says that it is.
         wanted: filter of the segments of the maps.
+        sensor: sensor position in the request's frame, float64 (3,), meters; None if it is not
+            known.
     """
     past = {
         (number, place): evidence(snapshot)
@@ -383,6 +399,7 @@ def localize_among(
             if hints is None
             else partial(_guesses, group, group.searched[place], parameters, hints, wanted),
             wanted=wanted,
+            sensor=sensor,
         )
 
     pairs = sum(
