@@ -74,6 +74,9 @@ def test_request_states_the_classes_to_ignore_and_those_of_its_segments() -> Non
     assert body["ignore"] == ["movable"]
     assert body["query_classes"] == b"y"
     assert "ignore" not in msgpack.unpackb(sent[1])
+    # From where the segments are seen, in the frame of the centroids.
+    position = body["hints"]["sensor"]["position"]
+    assert position == pytest.approx(REQUEST.odom_pose[:3, 3].tolist())
 
 
 def test_unreachable_service_is_told_as_not_reached() -> None:

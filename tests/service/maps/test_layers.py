@@ -180,3 +180,15 @@ def test_whole_delta_replaces_the_map() -> None:
     after = start.after(change.delta)
     assert (after.base.model_id, after.ids.tolist()) == ("another", [5])
     assert after.robots == Counter(ann=1)
+
+
+def test_capture_positions_are_those_of_each_layer() -> None:
+    base, above = segments([1, 2, 3]), edit([2, 7], [], value=1)
+    base = replace(base, frame_positions=base.frame_positions + 5.0)
+    above = replace(above, changed=replace(above.changed, frame_positions=np.full((1, 3), 9.0)))
+    layers = MapLayers.of(base).after(above)
+    rows = np.array([[0, 2], [3, 4]])
+    positions = layers.capture_positions(rows)
+    assert positions.shape == (2, 2, 3)
+    assert positions[..., 0].tolist() == [[5.0, 5.0], [9.0, 9.0]]
+    assert layers.capture_positions(rows[0]).tolist() == [[5.0] * 3, [5.0] * 3]

@@ -112,6 +112,25 @@ def test_robot_in_map_gets_its_pose(stocked: Any, manifest: Manifest, body: Any)
     assert stages == ["receive", "queue", "decode", "search", "verify", "encode"]
 
 
+def test_sensor_of_codes_moves_the_pose_if_it_sees_other_sides(stocked: Any, body: Any) -> None:
+    """All segments were seen from the map's origin."""
+
+    def told(position: Float64) -> dict[str, Any]:
+        sensor = {"position": TRUTH.inverse().apply(position).tolist()}
+        response = stocked.post("/localize", json=body | {"hints": {"sensor": sensor}})
+        assert response.status_code == 200, response.text
+        (found,) = response.json()["localizations"]
+        return dict(found)
+
+    (plain,) = stocked.post("/localize", json=body).json()["localizations"]
+    same, beyond = told(np.zeros(3)), told(np.array([70.0, 10.0, 0.0]))
+    position = plain["pose"]["translation"]
+    assert same["pose"]["translation"] == pytest.approx(position, abs=1e-6)
+    assert np.linalg.norm(np.subtract(beyond["pose"]["translation"], position)) > 0.005
+    assert plain["probability"] == same["probability"] == beyond["probability"]
+    assert np.trace(beyond["covariance"]) > np.trace(same["covariance"])
+
+
 def test_both_encodings_give_the_same_answer(stocked: Any, body: Any) -> None:
     first = stocked.post("/localize", json=body).json()
     listed = post_packed(stocked, "/localize", packed(body), "application/json").json()
