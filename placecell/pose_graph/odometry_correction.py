@@ -5,14 +5,16 @@ long, the later view lies farther along the way than the first one, and so do al
 views tell the error of the scale, which wanders over some 100 m, and the error of the heading.
 Loops cannot: they fix the poses at their ends, but not the shape of the way between them.
 
-The centroid of a segment also moves as the robot passes it, because other parts become visible. It
-moves by a similar amount for segments that are passed at a similar angle, so that amount is
-estimated along with the errors. Segments at the height of the sensor or above, seen from nearly the
-same direction twice, hardly move; they give the level.
+The centroid of a segment also moves, because other parts become visible as the robot passes it. It
+leans toward the sensor, and so moves across the way, too: without this, a street with more things
+on one side would bend. These amounts are estimated along with the errors, by the size of segments
+and the change of their direction. Segments at the height of the sensor or above, seen from nearly
+the same direction twice, only lean; they give the level.
 
 A view shows the points of about a second. If the odometry turned wrongly in this time, only the
-later points moved with it, so each error counts by the share of the points that came after it. If
-the box of a segment changes, its centroid moves too: such a pair counts less.
+later points moved with it, so each error counts by the share of the points that came after it.
+Along each axis, a pair counts by its box: the centroid of a pole stays, that of a long wall slides
+along it, and a side that changes moves it.
 """
 
 from dataclasses import replace
@@ -99,8 +101,8 @@ BELOW = 0.3
 behind others."""
 
 LEVEL = 0.01
-"""Amount by which the centroids of high segments move that are seen from nearly the same direction
-twice, meters: 1 cm in a simulated town (seed 104), 3 cm on a real drive in a city."""
+"""Amount by which the centroids of high segments move ahead that are seen from nearly the same
+direction twice, meters: 1 cm in a simulated town (seed 104), 2 cm on a real drive in a city."""
 
 AMOUNT = 1.0
 """Standard deviation of the amount by which other centroids move in addition, meters: hardly a
