@@ -15,7 +15,7 @@ from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
 from placecell.localization.refinement import refine, residuals
 from placecell.localization.registration import register
-from placecell.localization.viewpoint import UNCERTAINTY, trust_of
+from placecell.localization.viewpoint import SHIFT, UNCERTAINTY, trust_of
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,6 +121,9 @@ def seen_by_robot(
     """
     if found.sensor is None or found.captures is None:
         return hypothesis
+    # Most correspondences are of other places.
+    reach = parameters.wide_gate + 2 * SHIFT
+    found = found.take(np.flatnonzero(residuals(hypothesis.pose, found) < reach))
     seen = found.seen_at(hypothesis.pose)
     shifts = seen.target - found.target
     common, trust = UNCERTAINTY * shifts, trust_of(shifts)
