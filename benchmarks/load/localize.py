@@ -253,5 +253,7 @@ def _body(asked: Description, k: int, *, named: bool = True) -> bytes:
         "codes": asked.codes.tobytes(),
         "centroids": asked.centroids.astype("<f8").tobytes(),
         "k": k,
+        # As a robot does, so that its viewpoint counts.
+        "hints": {"sensor": {"position": asked.centroids.mean(axis=0).tolist()}},
     } | ({"maps": [MAP]} if named else {})
     return bytes(msgpack.packb(content))
