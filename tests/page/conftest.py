@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 import pytest
+from placecell_client import Client
 
 from benchmarks.page.browser import BrowserError, chromium, program
 from benchmarks.page.two_robots import TwoRobots
@@ -71,12 +72,20 @@ def browser() -> Iterator["Browser"]:
 
 @pytest.fixture
 def page(browser: "Browser", address: str) -> Iterator["Page"]:
-    """An empty page; it must end without an error and without a request to another host."""
+    """An empty page; it must end without an error and without a request to another host.
+
+    Maps that a test adds are deleted afterward, so that a test that fails does not fail others.
+    """
+    with Client(address) as client:
+        known = {each.name for each in client.maps()}
     with browser.new_context(viewport={"width": 1280, "height": 800}) as context:
         made = context.new_page()
         made.set_default_timeout(20_000)
         watch = Watch(urlsplit(address).netloc)
         watch.follow(made)
         yield made
+        with Client(address) as client:
+            for added in {each.name for each in client.maps()} - known:
+                client.delete_map(added)
         assert not watch.errors
         assert not watch.foreign

@@ -195,7 +195,7 @@ def test_shapes_are_drawn_near_the_middle_and_kept(
     )
     told.wait_for()
     assert page.get_by_label("Color by").input_value() == "class"
-    wait_until(page, f"({COLORED})() > {2 * before}")
+    wait_until(page, f"({COLORED})() > {1.5 * before}")
     assert sum(asked) == 300
     assert max(asked) <= 50
     # A part of this view needs only shapes that are kept.
