@@ -1,10 +1,16 @@
-"""Files: their order by name, and writing one as a whole or not at all."""
+"""Files: their order by name, writing one as a whole or not at all, and locks."""
 
+import errno
 import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # a system without it cannot lock
+    fcntl = None  # type: ignore[assignment]
 
 
 def natural_key(file: Path) -> tuple[tuple[str | int, ...], str]:
@@ -32,3 +38,22 @@ def written_whole(file: Path) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             unfinished.unlink(missing_ok=True)
+
+
+def lock_at_once(descriptor: int) -> None:
+    """Lock an open file or folder until it is closed, or the process ends; do not wait.
+
+    A system without such locks locks nothing.
+
+    Raises:
+        BlockingIOError: Another process has the lock.
+        OSError: The file system cannot lock, as some of networks.
+    """
+    if fcntl is None:
+        return
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        if error.errno in {errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES}:
+            raise BlockingIOError(error.errno, error.strerror) from error
+        raise

@@ -127,8 +127,7 @@ class Spool:
             return cls(connect(file), session, most_bytes, lock)
         except sqlite3.DatabaseError as error:
             if isinstance(error, sqlite3.OperationalError):
-                if lock is not None:
-                    lock.close()
+                lock.close()
                 raise OSError(f"{file}: {error}. Check the folder, or give another one") from error
             aside = set_aside(file)
             tell(f"{file} is damaged ({error}). It is now {aside.name}; the agent starts anew.")

@@ -1,6 +1,5 @@
 """Lock of a data directory: one service owns it, even if the lock file is removed."""
 
-import errno
 import logging
 import os
 from collections.abc import Iterator
@@ -10,12 +9,8 @@ from pathlib import Path
 
 import filelock
 
+from placecell.core.files import lock_at_once
 from service.maps.store import StoreLockedError
-
-try:
-    import fcntl
-except ImportError:  # a system without it has only the lock file
-    fcntl = None  # type: ignore[assignment]
 
 logger = logging.getLogger("placecell")
 
@@ -60,14 +55,13 @@ def locked(data_dir: Path) -> Iterator[DataLock]:
     in_use = f"{data_dir} is in use by another service. Stop it, or use another data directory"
     folder = os.open(data_dir, os.O_RDONLY | os.O_CLOEXEC)
     try:
-        if fcntl is not None:
-            try:
-                fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except OSError as error:
-                if error.errno in {errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES}:
-                    raise StoreLockedError(in_use) from error
-                # Some network file systems cannot lock directories.
-                logger.info("the directory %s cannot be locked: %s", data_dir, error)
+        try:
+            lock_at_once(folder)
+        except BlockingIOError as error:
+            raise StoreLockedError(in_use) from error
+        except OSError as error:
+            # Some network file systems cannot lock directories.
+            logger.info("the directory %s cannot be locked: %s", data_dir, error)
         try:
             lock = filelock.FileLock(data_dir / "lock").acquire(timeout=0)
         except filelock.Timeout as error:

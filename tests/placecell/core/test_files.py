@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from placecell.core.files import natural_key, written_whole
+from placecell.core.files import lock_at_once, natural_key, written_whole
 
 
 def test_names_sort_by_their_numbers() -> None:
@@ -34,3 +34,13 @@ def test_error_keeps_the_old_file(tmp_path: Path) -> None:
         write_half()
     assert file.read_text() == "old"
     assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_file_is_locked_once_until_it_is_closed(tmp_path: Path) -> None:
+    file = tmp_path / "lock"
+    with file.open("a") as first, file.open("a") as second:
+        lock_at_once(first.fileno())
+        with pytest.raises(BlockingIOError):
+            lock_at_once(second.fileno())
+        first.close()
+        lock_at_once(second.fileno())
