@@ -14,8 +14,11 @@ GONE = "-"
 MOST = 16
 """Largest number of maps in the header: those that the client used last."""
 
-_MAP = re.compile(r"/maps/([A-Za-z0-9][A-Za-z0-9._-]{0,63})(/changes)?(\?.*)?")
-_WRITTEN = re.compile(r"/maps/([A-Za-z0-9][A-Za-z0-9._-]{0,63})(/[a-z/0-9]*)?(\?.*)?")
+MAP_NAME = "[A-Za-z0-9][A-Za-z0-9._-]{0,63}"
+"""Pattern of the name of a map."""
+
+_MAP = re.compile(rf"/maps/({MAP_NAME})(/changes)?(\?.*)?")
+_WRITTEN = re.compile(rf"/maps/({MAP_NAME})(/[a-z/0-9]*)?(\?.*)?")
 _TAG = re.compile(r"(?:W/)?\"([0-9a-f]{16}-([0-9]{1,16}))\"")
 
 

@@ -7,15 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from placecell_client.seen import MAP_NAME
 
 from placecell.core.parameters import PROTOCOL_V1, Parameters
 from placecell.core.segment_classes import ClassFilter
 from placecell.core.types import Float64
 from placecell.descriptors.shipped_models import DEFAULT_MODEL
-
-MAP_NAME = "[A-Za-z0-9][A-Za-z0-9._-]{0,63}"
-"""Pattern of a map's name, as the service has it. An edit of another name would be refused for
-ever, and lost."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +112,7 @@ class AgentSettings:
                 raise ValueError(f"Invalid {name} '': expected a name.")
         for name in ("map", "localize_map", "upload_map"):
             found = getattr(self, name)
+            # The service would refuse each edit, and the robot would lose it.
             if found is not None and not re.fullmatch(MAP_NAME, found):
                 raise ValueError(
                     f"Invalid {name} {found!r:.80}: expected 1 to 64 letters, digits, dots, dashes "

@@ -11,7 +11,9 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import Literal, Protocol, runtime_checkable
 
-NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
+from placecell_client.seen import MAP_NAME
+
+NAME_PATTERN = rf"^{MAP_NAME}$"
 
 IDS = 1 << 32
 """Number of ids of a map: 0 to this, exclusive."""

@@ -11,6 +11,7 @@ from time import monotonic
 from weakref import WeakValueDictionary
 
 from placecell_client import MapFileError
+from placecell_client.seen import MAP_NAME
 
 from service.core.problems import Problem
 from service.maps.following.advance import newest
@@ -33,7 +34,7 @@ LATE_SECONDS = 30.0
 GONE = "-"
 """Tag of a map that was deleted, in `Placecell-Seen`."""
 
-_SEEN = re.compile(r"([A-Za-z0-9][A-Za-z0-9._-]{0,63}) +\"?([0-9a-f]{16}-[0-9]{1,16}|-)\"?")
+_SEEN = re.compile(rf"({MAP_NAME}) +\"?([0-9a-f]{{16}}-[0-9]{{1,16}}|-)\"?")
 
 logger = logging.getLogger("placecell")
 
