@@ -1,6 +1,5 @@
 """Drives with the true class of each segment: simulated ones, and folders with labels."""
 
-import tempfile
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +12,7 @@ from cli.sources import (
     protocol_named,
     refuse_nothing,
     show,
+    simulated_drive,
     split_source,
 )
 
@@ -63,22 +63,11 @@ def simulated(
     text: str, every: int | None, segmentation: str, scans: int
 ) -> "tuple[Recording, UInt8 | None]":
     """Simulate robot A's drive of town:SEED:SENSOR:PLACE with labels."""
-    import town
     from placecell.datasets import open_drive
 
     name, other_cars = other_day(text)
     seed, sensor, place = parse_town(name)
-    with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
-        drive = town.one_robot(
-            Path(folder),
-            seed,
-            scans,
-            place=place,
-            lidar=town.sensor(sensor),
-            labels=True,
-            other_cars=other_cars,
-            progress=show,
-        )
+    with simulated_drive(seed, scans, sensor, place, labels=True, other_cars=other_cars) as drive:
         recording, labels = segmented_with_labels(open_drive(drive), every, segmentation)
     return replace(recording, name=text), labels
 

@@ -3,6 +3,7 @@
 import re
 import tempfile
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -226,17 +227,36 @@ def town_drive(
     """
     import town
 
+    with simulated_drive(seed, scans, sensor, place, opposite=opposite) as drive:
+        return load(drive), town.read_origin(drive)
+
+
+@contextmanager
+def simulated_drive(
+    seed: int,
+    scans: int,
+    sensor: str,
+    place: str,
+    *,
+    opposite: bool = False,
+    labels: bool = False,
+    other_cars: bool = False,
+) -> "Iterator[Path]":
+    """Simulate one robot's drive (see `town.one_robot`); its scans are deleted at the end."""
+    import town
+
     with tempfile.TemporaryDirectory(prefix="placecell-town-") as folder:
-        drive = town.one_robot(
+        yield town.one_robot(
             Path(folder),
             seed,
             scans,
             place=place,
             lidar=town.sensor(sensor),
             opposite=opposite,
+            labels=labels,
+            other_cars=other_cars,
             progress=show,
         )
-        return load(drive), town.read_origin(drive)
 
 
 def source(text: str) -> "Source":

@@ -64,9 +64,10 @@ def publish_refit(
     with whole(folder) as unfinished:
         for name in FILES:
             shutil.copyfile(kept / name, unfinished / name)
-        own = own_parts(unfinished, manifest, data.training.recorded())
+        recorded = data.training.recorded()
+        own = own_parts(unfinished, manifest, recorded)
         rows, per_byte = np.flatnonzero(own.any(axis=1)), manifest.quantizer.per_byte
-        recorded = data.training.recorded().take(rows)
+        recorded = recorded.take(rows)
         assert recorded.neighborhood is not None
         parts = np.concatenate([own[rows], projection.part(recorded.neighborhood)], axis=1)
         write_projection(unfinished, projection, learn_rotation(parts, per_byte))
