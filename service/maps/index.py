@@ -39,6 +39,10 @@ PARALLEL = 1 << 23
 BLOCK = 1 << 21
 """Bytes of codes compared per step; many ties would otherwise take gigabytes."""
 
+SCAN = 15
+"""How FAISS scans (its `implem`): every block of codes is compared with all queries in turn. From
+four queries on, this takes three quarters of the time of FAISS's own choice, and never more."""
+
 FILTERS = 2
 """Largest number of filters of an index whose rows are kept as indexes of their own; each takes up
 to the memory of the index."""
@@ -235,7 +239,9 @@ class Nibbles:
             some = slice(start, start + ROWS)
             room[some] = self.faiss_bytes[codes[some].view(np.uint8)]
         plain.ntotal = len(codes)
-        return faiss.IndexPQFastScan(plain)  # type: ignore[arg-type]  # one of two forms
+        index = faiss.IndexPQFastScan(plain)  # type: ignore[arg-type]  # one of two forms
+        index.implem = SCAN
+        return index
 
 
 class NibbleIndex(MapIndex):
