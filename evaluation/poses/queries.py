@@ -41,6 +41,7 @@ class DescribedCapture:
         codes: int8 (n, code bytes), codes of all segments around the robot.
         centroids: float64 (n, 3), their centroids, meters.
         sensor: float64 (3,), sensor position.
+        heights: float64 (n,), heights of the segments' boxes, meters.
     """
 
     scan: int
@@ -49,6 +50,7 @@ class DescribedCapture:
     codes: Int8
     centroids: Float64
     sensor: Float64
+    heights: Float64
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,6 +66,7 @@ class PoseQuery:
         sensor: float64 (3,), sensor position in the robot's frame.
         truth: true transform from the robot's frame to the map's.
         mapped: whether the query is in the mapped area.
+        heights: float64 (n,), heights of the segments' boxes, meters; None if they are not known.
     """
 
     scan: int
@@ -74,10 +77,16 @@ class PoseQuery:
     sensor: Float64
     truth: Pose
     mapped: bool
+    heights: Float64 | None = None
 
     def some(self, chosen: Int64) -> Self:
         """Return the query with only these segments."""
-        return replace(self, codes=self.codes[chosen], centroids=self.centroids[chosen])
+        return replace(
+            self,
+            codes=self.codes[chosen],
+            centroids=self.centroids[chosen],
+            heights=None if self.heights is None else self.heights[chosen],
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -179,6 +188,7 @@ class Pair:
                 sensor=frame.apply(capture.sensor),
                 truth=to_map.after(frame.inverse()),
                 mapped=self.blocks or bool(near <= MAPPED_METERS),
+                heights=capture.heights,
             )
 
 
@@ -199,7 +209,7 @@ def described_captures(
     asked = set(spread(len(robot.frames), most).tolist())
     for number, (scan, segments, _) in enumerate(robot.views()):
         if number in asked:
-            codes, centroids = described(engine, segments, wanted)
+            codes, centroids, heights = described(engine, segments, wanted)
             yield DescribedCapture(
                 scan=scan,
                 time=float(drive.times[scan]),
@@ -207,18 +217,22 @@ def described_captures(
                 codes=codes,
                 centroids=centroids,
                 sensor=drive.poses[scan, :3, 3],
+                heights=heights,
             )
 
 
 def described(
     engine: Engine, segments: Segments, wanted: ClassFilter | None = None
-) -> tuple[Int8, Float64]:
-    """Return codes (n, code bytes) and centroids (n, 3) of the wanted segments."""
+) -> tuple[Int8, Float64, Float64]:
+    """Return codes (n, code bytes), centroids (n, 3) and heights (n,) of the wanted segments."""
     if not len(segments):
-        return np.zeros((0, engine.model.manifest.code_bytes), dtype=np.int8), np.zeros((0, 3))
+        codes = np.zeros((0, engine.model.manifest.code_bytes), dtype=np.int8)
+        return codes, np.zeros((0, 3)), np.zeros(0)
     found = engine.describe(clouds(segments), segments.sensors).searched(wanted)
     assert found.centroids is not None
-    return found.codes[found.usable], found.centroids[found.usable]
+    assert found.heights is not None
+    usable = found.usable
+    return found.codes[usable], found.centroids[usable], found.heights[usable]
 
 
 @dataclass(slots=True, eq=False)
@@ -255,7 +269,9 @@ def localize_query(
     session: DriveSession | None = None,
 ) -> tuple[Localization, float]:
     """Localize a query in one map; return the result and the time it took, milliseconds."""
-    seen = Descriptors(engine.model.id, query.codes, None, query.centroids, {})
+    seen = Descriptors(
+        engine.model.id, query.codes, None, query.centroids, {}, heights=query.heights
+    )
     started = perf_counter()
     hints = Hints(sensor=SensorPose(tuple(query.sensor.tolist())))
     result = engine.localize(seen, [name], k, parameters, session, hints=hints)

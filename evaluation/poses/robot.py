@@ -12,7 +12,7 @@ from placecell_client import Client, CompactMap, Info
 from scipy.spatial.transform import Rotation
 
 from placecell.core.segment_classes import ClassFilter
-from placecell.core.segments import Segments
+from placecell.core.segments import Segments, stored_extents
 from placecell.core.types import Float64, Int8, UInt8
 from placecell.segmentation.recording import Recording
 
@@ -140,7 +140,7 @@ class Robot:
             ValueError: the drive has no segments.
         """
         self.check_segments()
-        codes, centroids, frame_index, classes = [], [], [], []
+        codes, centroids, frame_index, classes, extents = [], [], [], [], []
         scans: list[int] = []
         model_id = ""
         for scan, segments, distinct in self.views():
@@ -157,6 +157,8 @@ class Robot:
                 classes.append(description.classes[kept])
             codes.append(description.codes[kept])
             centroids.append(description.centroids[kept])
+            low, high = segments.bounds()
+            extents.append(stored_extents((high - low)[kept]))
             frame_index.append(np.full(int(kept.sum()), len(scans), dtype=np.uint32))
             scans.append(scan)
         poses = self.drive.poses[scans]
@@ -175,6 +177,7 @@ class Robot:
             frame_positions=poses[:, :3, 3],
             frame_orientations=Rotation.from_matrix(poses[:, :3, :3]).as_quat().astype(np.float32),
             classes=np.concatenate(classes) if with_classes else None,
+            extents=np.concatenate(extents),
         )
 
 

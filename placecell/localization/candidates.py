@@ -21,6 +21,8 @@ class Candidates:
         sensor: float64 (3,), meters, sensor position in the robot's frame; None if it is not known.
         captures: float64 (n, k, 3), meters, sensor position in the map's frame from which each
             candidate was seen; None if it is not known.
+        heights: float64 (n,), meters, height of each query's box; NaN where it is not known. None
+            if none is known.
     """
 
     centroids: Float64
@@ -29,6 +31,7 @@ class Candidates:
     probabilities: Float64
     sensor: Float64 | None = None
     captures: Float64 | None = None
+    heights: Float64 | None = None
 
     def __post_init__(self) -> None:
         """Check the shapes of the arrays.
@@ -55,6 +58,7 @@ class Candidates:
             places=self.places[queries],
             probabilities=self.probabilities[queries],
             captures=None if self.captures is None else self.captures[queries],
+            heights=None if self.heights is None else self.heights[queries],
         )
 
     @cached_property

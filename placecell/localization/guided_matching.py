@@ -45,8 +45,15 @@ class MapSegments(Protocol):
         """
 
 
+class MapBoxes(MapSegments, Protocol):
+    """Access to the boxes of a map's segments as well, for the height of a pose."""
+
+    def heights(self, rows: Int64) -> Float64:
+        """Return the heights of the boxes of rows, float64 (m,), meters; NaN: unknown."""
+
+
 class CandidateSegments:
-    """`MapSegments` that consist of the candidates only."""
+    """`MapBoxes` that consist of the candidates only."""
 
     def __init__(self, candidates: Candidates) -> None:
         beliefs = candidates.beliefs
@@ -67,6 +74,10 @@ class CandidateSegments:
         pairs = self._numbered(queries, rows)
         at = np.searchsorted(self._pairs, pairs).clip(max=len(self._pairs) - 1)
         return np.where(self._pairs[at] == pairs, self._beliefs[at], 0.0)
+
+    def heights(self, rows: Int64) -> Float64:
+        """Return NaN for each row: candidates have no boxes."""
+        return np.full(len(rows), np.nan)
 
     def _numbered(self, queries: Int64, rows: Int64) -> Int64:
         return queries * len(self._rows) + np.searchsorted(self._rows, rows)

@@ -19,7 +19,7 @@ from placecell.core.types import Float64
 from placecell.localization.candidates import Candidates
 from placecell.localization.confidence import Confidence, with_rival
 from placecell.localization.evidence import Evidence
-from placecell.localization.guided_matching import MapSegments, match_guided
+from placecell.localization.guided_matching import MapBoxes, match_guided
 from placecell.localization.hypothesis import Hypothesis, same_place
 from placecell.localization.localize import (
     Localization,
@@ -55,7 +55,7 @@ class MapQuery:
     name: str
     model: str
     candidates: Candidates
-    there: MapSegments
+    there: MapBoxes
     confidence: Confidence
     evidence: Evidence | None = None
     guesses: Callable[[Sequence[Hypothesis]], tuple[Pose, ...]] | None = None
@@ -139,9 +139,17 @@ def localize_jointly(
         )
         found.append(replace(places, hypotheses=hypotheses))
     return [
-        replace(each, localization=places.seen_by_robot(each.localization, parameters))
-        for each, places in zip(
-            judge_jointly(queries, found, parameters, link, only_rivals), found, strict=True
+        replace(
+            each,
+            localization=places.seen_by_robot(
+                each.localization, query.candidates, query.there, parameters
+            ),
+        )
+        for each, places, query in zip(
+            judge_jointly(queries, found, parameters, link, only_rivals),
+            found,
+            queries,
+            strict=True,
         )
     ]
 

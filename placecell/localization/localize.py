@@ -12,7 +12,13 @@ from placecell.localization.candidates import Candidates
 from placecell.localization.confidence import Confidence, SegmentNeeds, features_of, shipped
 from placecell.localization.correspondences import Correspondences, correspond
 from placecell.localization.evidence import Evidence
-from placecell.localization.guided_matching import CandidateSegments, MapSegments, match_guided
+from placecell.localization.ground_level import at_ground_level
+from placecell.localization.guided_matching import (
+    CandidateSegments,
+    MapBoxes,
+    MapSegments,
+    match_guided,
+)
 from placecell.localization.hypothesis import Hypothesis, find_hypotheses, seen_by_robot
 from placecell.localization.overlap import SegmentsInMap, explained_shares
 from placecell.localization.parameters import LocalizationParameters
@@ -73,7 +79,7 @@ def localize(
     parameters: LocalizationParameters = PARAMETERS,
     confidence: Confidence | None = None,
     evidence: Evidence | None = None,
-    there: MapSegments | None = None,
+    there: MapBoxes | None = None,
 ) -> Localization:
     """Estimate the pose of the robot's frame in the map's frame.
 
@@ -95,7 +101,7 @@ def localize(
     there = there or CandidateSegments(candidates)
     hypotheses = [match_guided(each, candidates, there, parameters) for each in places.hypotheses]
     told = judge(hypotheses, candidates, there, places.usable, parameters, confidence, evidence)
-    return places.seen_by_robot(told, parameters)
+    return places.seen_by_robot(told, candidates, there, parameters)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,14 +118,23 @@ class PlaceHypotheses:
     usable: int
     correspondences: Correspondences | None = None
 
-    def seen_by_robot(self, told: Localization, parameters: LocalizationParameters) -> Localization:
+    def seen_by_robot(
+        self,
+        told: Localization,
+        candidates: Candidates,
+        there: MapBoxes,
+        parameters: LocalizationParameters,
+    ) -> Localization:
         """Return a localization with the pose that the robot's own view of the segments gives.
+
+        Its height follows from the ground as well (`ground_level`).
 
         Probability, reason and the hypotheses for later requests stay: they are about the place.
         """
         if told.best is None or self.correspondences is None:
             return told
-        return replace(told, best=seen_by_robot(told.best, self.correspondences, parameters))
+        best = seen_by_robot(told.best, self.correspondences, parameters)
+        return replace(told, best=at_ground_level(best, candidates, there, parameters))
 
 
 def find_places(

@@ -44,6 +44,7 @@ class PreparedScan:
         inputs: the network's inputs, one row per usable segment.
         usable: indices of these segments in the scan, int64 (rows,).
         centroids: their centroids, float64 (rows, 3), meters, in the request's frame.
+        heights: heights of their boxes, float64 (rows,), meters.
         errors: reason for each other segment, by index in the scan.
         cost: cost of describing the segments.
         dropped_points: points of the scan that were not finite and were left out.
@@ -53,6 +54,7 @@ class PreparedScan:
     inputs: Inputs
     usable: Int64
     centroids: Float64
+    heights: Float64
     errors: dict[int, SegmentError]
     cost: Cost
     dropped_points: int = 0
@@ -74,6 +76,8 @@ class Descriptors:
         dropped_points: points of the request that were not finite and were left out.
         classes: class of each segment as `segment_classes` packs it, uint8 (n,); None if the model
             has no semantic head, or the request states no classes.
+        heights: heights of the segments' boxes, float64 (n,), meters, NaN where there is an error;
+            None if they are not known.
     """
 
     model_id: str
@@ -83,6 +87,7 @@ class Descriptors:
     errors: dict[int, SegmentError]
     dropped_points: int = 0
     classes: UInt8 | None = None
+    heights: Float64 | None = None
 
     def __len__(self) -> int:
         return len(self.codes)
@@ -120,6 +125,7 @@ class Descriptors:
         errors: dict[int, SegmentError],
         dropped_points: int,
         classes: UInt8 | None = None,
+        heights: Float64 | None = None,
     ) -> Self:
         """Build from the segments that have a descriptor, in order, and the errors of the others.
 
@@ -130,6 +136,7 @@ class Descriptors:
             errors: by index of the segment.
             dropped_points: points that were left out.
             classes: uint8 (rows,).
+            heights: float64 (rows,).
         """
         codes = manifest.quantizer.encode(values)
         if errors:
@@ -139,7 +146,10 @@ class Descriptors:
             values = _spread(values, usable, count, np.nan)
             centroids = _spread(centroids, usable, count, np.nan)
             classes = None if classes is None else _spread(classes, usable, count, UNKNOWN)
-        return cls(manifest.model_id, codes, values, centroids, errors, dropped_points, classes)
+            heights = None if heights is None else _spread(heights, usable, count, np.nan)
+        return cls(
+            manifest.model_id, codes, values, centroids, errors, dropped_points, classes, heights
+        )
 
 
 class Describer:
@@ -185,10 +195,12 @@ class Describer:
         timing.lap("voxelise")  # the rest of the steps before the network
         # Rounding must not move a centroid beyond the limit of the points' coordinates.
         centroids = np.clip(segments.centroids() + origin, -COORDINATE_LIMIT, COORDINATE_LIMIT)
+        low, high = segments.bounds()
         return PreparedScan(
             inputs=inputs,
             usable=np.array(usable),
             centroids=centroids,
+            heights=(high - low)[:, 2].astype(np.float64),
             errors=errors,
             cost=cost,
             dropped_points=int(scan.dropped.sum()),
@@ -233,6 +245,7 @@ class Describer:
             errors=errors,
             dropped_points=prepared.dropped_points,
             classes=None if classes is None else classes[is_finite],
+            heights=prepared.heights[is_finite],
         )
 
     def _check_amount(self, scan: Scan) -> None:

@@ -196,6 +196,18 @@ class MapLayers:
             positions[here] = layer.frame_positions[layer.frame_index[rows[here] - first]]
         return positions
 
+    def heights(self, rows: Int64) -> Float64:
+        """Return the heights of the boxes of rows, float64 (n,), meters; NaN where unknown.
+
+        A map rounds them up to decimeters; half a decimeter is subtracted.
+        """
+        above = rows >= len(self.base)
+        stored = np.zeros(len(rows))
+        for layer, here, first in ((self.base, ~above, 0), (self.recent, above, len(self.base))):
+            if layer.extents is not None:
+                stored[here] = layer.extents[rows[here] - first, 2]
+        return np.where(stored > 0, (stored - 0.5) / 10, np.nan)
+
     def presence(self, rows: Int64) -> Float64 | None:
         """Return how surely the segments of rows still stand there, 0 to 1, as an array like rows.
 

@@ -43,7 +43,7 @@ from service.search.sessions import Session
 
 
 class StoredNeighborhood:
-    """Segments of a stored map around a position, for guided matching (`MapSegments`)."""
+    """Segments of a stored map around a position, for guided matching (`MapBoxes`)."""
 
     def __init__(
         self, codes: Int8, model: Model, snapshot: MapSnapshot, wanted: ClassFilter | None = None
@@ -66,6 +66,10 @@ class StoredNeighborhood:
         presence = self._layers.presence(rows)
         return probabilities if presence is None else probabilities * presence
 
+    def heights(self, rows: Int64) -> Float64:
+        """Return the heights of the boxes of rows, meters; NaN: unknown."""
+        return self._layers.heights(rows)
+
 
 def map_query(
     codes: Int8,
@@ -77,6 +81,7 @@ def map_query(
     guesses: Callable[[MapSegments, Sequence[Hypothesis]], tuple[Pose, ...]] | None = None,
     wanted: ClassFilter | None = None,
     sensor: Float64 | None = None,
+    heights: Float64 | None = None,
 ) -> MapQuery:
     """Search the candidates in one map.
 
@@ -91,6 +96,8 @@ def map_query(
             and the hypotheses that were found without them.
         wanted: filter of the map's segments.
         sensor: sensor position in the robot's frame, float64 (3,), meters; None if it is not known.
+        heights: heights of the boxes of the segments around the robot, float64 (q,), meters; None if
+            they are not known.
     """
     nearest = nearest_segments(codes, model, (snapshot,), k, wanted=wanted)
     there = StoredNeighborhood(codes, model, snapshot, wanted)
@@ -107,6 +114,7 @@ def map_query(
         probabilities,
         sensor=sensor,
         captures=None if sensor is None else layers.capture_positions(nearest.rows),
+        heights=heights,
     )
     return MapQuery(
         name=snapshot.name,
@@ -129,6 +137,7 @@ class ModelQuery:
         codes: codes of the segments around the robot, int8 (q, code bytes).
         centroids: their centroids, float64 (q, 3), meters, in the robot's frame.
         segments: index of each in the request, int64 (q,).
+        heights: heights of their boxes, float64 (q,), meters; None if they are not known.
     """
 
     model: Model
@@ -136,6 +145,7 @@ class ModelQuery:
     codes: Int8
     centroids: Float64
     segments: Int64
+    heights: Float64 | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -231,7 +241,12 @@ def localize(
         assert described.centroids is not None
         usable = described.usable
         group = ModelQuery(
-            model, searched, described.codes[usable], described.centroids[usable], usable
+            model,
+            searched,
+            described.codes[usable],
+            described.centroids[usable],
+            usable,
+            None if described.heights is None else described.heights[usable],
         )
         groups.append(group)
         middle = middle_of(group.centroids)
@@ -400,6 +415,7 @@ def localize_among(
             else partial(_guesses, group, group.searched[place], parameters, hints, wanted),
             wanted=wanted,
             sensor=sensor,
+            heights=group.heights,
         )
 
     pairs = sum(

@@ -126,7 +126,7 @@ def test_query_near_captures_without_segments_is_in_the_mapped_area(
 
 
 def test_description_without_segments_is_empty(engine: Engine) -> None:
-    codes, centroids = described(engine, many_segments([]))
-    some, _ = described(engine, many_segments([200]))
+    codes, centroids, heights = described(engine, many_segments([]))
+    some, _, _ = described(engine, many_segments([200]))
     assert (codes.shape, codes.dtype) == ((0, some.shape[1]), some.dtype)
     assert centroids.shape == (0, 3)
