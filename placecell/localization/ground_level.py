@@ -30,7 +30,7 @@ ALIKE = 0.3
 """Mean difference of the heights of boxes below which the centroids alone give the height, m."""
 
 UNCERTAINTY = 0.3
-"""Standard deviation of the difference of two ground levels, meters."""
+"""Standard deviation of the difference of two ground levels that are alike everywhere, meters."""
 
 BOTH = 3.0
 """Distance of centroids within which robot and map have both seen a place, meters."""
@@ -76,9 +76,9 @@ def at_ground_level(
         return hypothesis
     common = float(unlike.mean()) ** 2 / UNLIKE
     variance = hypothesis.covariance[2, 2] + common**2
-    level = ground_offset(hypothesis.pose, candidates, there)
+    level, deviation = ground_offset(hypothesis.pose, candidates, there)
     if abs(level) <= FARTHEST:  # not if it is NaN
-        trust = variance / (variance + UNCERTAINTY**2)
+        trust = variance / (variance + deviation**2)
     else:
         trust, level = 0.0, 0.0
     covariance = hypothesis.covariance.copy()
@@ -98,22 +98,25 @@ def _raised(hypothesis: Hypothesis, rise: float, candidates: Candidates) -> Hypo
     return replace(hypothesis, pose=pose, residuals=np.sqrt(squared.clip(0.0)))
 
 
-def ground_offset(pose: Pose, candidates: Candidates, there: MapBoxes) -> float:
-    """Return how much higher the map's ground level is than the robot's at a pose, meters.
+def ground_offset(pose: Pose, candidates: Candidates, there: MapBoxes) -> tuple[float, float]:
+    """Return how much higher the map's ground level is than the robot's at a pose.
 
-    Only segments where robot and map have both seen something count. The median over several places
-    counts; NaN if there are too few segments.
+    Only segments where robot and map have both seen something count.
 
     Args:
         pose: transform from the robot's frame to the map's.
         candidates: the robot's segments, with the heights of their boxes.
         there: segments of the map.
+
+    Returns:
+        Median over several places, and its standard deviation, which includes the spread over these
+        places, meters; NaN if there are too few segments.
     """
     assert candidates.heights is not None
     known = np.isfinite(candidates.centroids).all(axis=1) & np.isfinite(candidates.heights)
     places = pose.apply(candidates.centroids[known])
     if len(places) < FEWEST:
-        return float("nan")
+        return float("nan"), float("nan")
     rows, points = there.near(places, BOTH)
     both, _, _ = nearest_within(points, places, BOTH, 1)
     both = evenly(both, MOST_ROWS)
@@ -127,7 +130,9 @@ def ground_offset(pose: Pose, candidates: Candidates, there: MapBoxes) -> float:
         for around, box in ((places[seen], candidates.heights[known][seen]), (points, heights))
     )
     apart = (other - own)[np.isfinite(other - own)]
-    return float(np.median(apart)) if len(apart) else float("nan")
+    if not len(apart):
+        return float("nan"), float("nan")
+    return float(np.median(apart)), float(np.hypot(UNCERTAINTY, apart.std()))
 
 
 def _levels(centers: Float64, places: Float64, heights: Float64) -> Float64:

@@ -96,8 +96,7 @@ def map_query(
             and the hypotheses that were found without them.
         wanted: filter of the map's segments.
         sensor: sensor position in the robot's frame, float64 (3,), meters; None if it is not known.
-        heights: heights of the boxes of the segments around the robot, float64 (q,), meters; None if
-            they are not known.
+        heights: heights of the segments' boxes, float64 (q,), meters; None if they are not known.
     """
     nearest = nearest_segments(codes, model, (snapshot,), k, wanted=wanted)
     there = StoredNeighborhood(codes, model, snapshot, wanted)

@@ -130,3 +130,4 @@ def test_description_without_segments_is_empty(engine: Engine) -> None:
     some, _, _ = described(engine, many_segments([200]))
     assert (codes.shape, codes.dtype) == ((0, some.shape[1]), some.dtype)
     assert centroids.shape == (0, 3)
+    assert heights.shape == (0,)

@@ -15,7 +15,6 @@ from placecell.localization.ground_level import (
     at_ground_level,
     ground_offset,
 )
-from placecell.localization.guided_matching import CandidateSegments
 
 PARAMETERS = LocalizationParameters()
 TRUE = Pose.of_yaw(0.6, np.array([40.0, -30.0, 12.0]))
@@ -83,7 +82,7 @@ def test_height_follows_the_ground_where_the_views_end_at_different_heights(foot
     assert off(plain) < -0.8
     assert abs(off(best)) < 0.25
     assert abs(off(best)) < 2 * np.sqrt(best.covariance[2, 2])
-    assert np.sqrt(best.covariance[2, 2]) <= UNCERTAINTY
+    assert np.sqrt(best.covariance[2, 2]) < 0.5
     np.testing.assert_allclose(best.pose.translation[:2], plain.pose.translation[:2])
     np.testing.assert_array_equal(best.queries, plain.queries)
 
@@ -102,14 +101,26 @@ def test_ground_offset_by_hand() -> None:
     )
     there = Boxes(stored, np.array([0.4, 0.4, 1.0, 1.0, 1.0]))
     raised = Pose.of_yaw(0.0, np.array([0.0, 0.0, 2.0]))
-    assert ground_offset(raised, candidates, there) == pytest.approx(4.3 - 1.4 - 2.0)
+    assert ground_offset(raised, candidates, there) == pytest.approx((4.3 - 1.4 - 2.0, UNCERTAINTY))
     # A segment that the map has not is no part of it, nor is one without a box.
     hole = replace(candidates, centroids=seen + np.eye(5, 3) * [40.0, 0, 0])
-    assert ground_offset(raised, hole, there) == pytest.approx(4.3 - 2.8 - 2.0)
+    assert ground_offset(raised, hole, there)[0] == pytest.approx(4.3 - 2.8 - 2.0)
     unknown = replace(candidates, heights=np.array([np.nan, 0.4, 0.4, 0.4, 0.4]))
-    assert ground_offset(raised, unknown, there) == pytest.approx(4.3 - 2.8 - 2.0)
+    assert ground_offset(raised, unknown, there)[0] == pytest.approx(4.3 - 2.8 - 2.0)
     for few in (np.arange(3), np.arange(0)):
-        assert np.isnan(ground_offset(raised, candidates.take(few), there))
+        assert np.isnan(ground_offset(raised, candidates.take(few), there)).all()
+
+
+def test_uneven_ground_level_is_less_certain() -> None:
+    """The level of the map is 0.4 m higher in one group of objects, and 0.8 m in the other."""
+    group = np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0], [3, 3, 0]])
+    seen = np.concatenate([group, group + [50.0, 0, 0]])
+    stored = seen + np.repeat([[0, 0, 0.4], [0, 0, 0.8]], 4, axis=0)
+    none = np.zeros((8, 0))
+    candidates = Candidates(seen, none.astype(int), np.zeros((8, 0, 3)), none, heights=np.ones(8))
+    flat = Pose.of_yaw(0.0, np.zeros(3))
+    found = ground_offset(flat, candidates, Boxes(stored, np.ones(8)))
+    assert found == pytest.approx((0.6, np.hypot(UNCERTAINTY, 0.2)))
 
 
 def test_height_and_variance_by_hand() -> None:
@@ -119,15 +130,13 @@ def test_height_and_variance_by_hand() -> None:
     assert candidates.heights is not None
     unlike = np.abs(there.sizes[before.rows] - candidates.heights[before.queries]).mean()
     variance = before.covariance[2, 2] + (unlike**2 / UNLIKE) ** 2
-    level = ground_offset(before.pose, candidates, there)
+    level, deviation = ground_offset(before.pose, candidates, there)
     after = at_ground_level(before, candidates, there, PARAMETERS)
-    total = 1 / (1 / variance + 1 / UNCERTAINTY**2)
+    total = 1 / (1 / variance + 1 / deviation**2)
     assert after.covariance[2, 2] == pytest.approx(total)
-    assert off(after) - off(before) == pytest.approx(level * total / UNCERTAINTY**2)
+    assert off(after) - off(before) == pytest.approx(level * total / deviation**2)
     np.testing.assert_array_equal(after.covariance[:2], before.covariance[:2])
-    distances = np.linalg.norm(
-        after.pose.apply(after.source) - there.centroids[after.rows], axis=1
-    )
+    distances = np.linalg.norm(after.pose.apply(after.source) - there.centroids[after.rows], axis=1)
     np.testing.assert_allclose(after.residuals, distances, atol=1e-9)
 
 
@@ -173,6 +182,6 @@ def test_few_boxes_below_the_ground_do_not_move_it(seed: int) -> None:
     low = there.centroids.copy()
     low[7, 2] -= 3.0
     right, wrong = (
-        ground_offset(TRUE, candidates, each) for each in (there, replace(there, centroids=low))
+        ground_offset(TRUE, candidates, each)[0] for each in (there, replace(there, centroids=low))
     )
     assert wrong == pytest.approx(right, abs=0.05)

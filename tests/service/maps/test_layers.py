@@ -192,3 +192,14 @@ def test_capture_positions_are_those_of_each_layer() -> None:
     assert positions.shape == (2, 2, 3)
     assert positions[..., 0].tolist() == [[5.0, 5.0], [9.0, 9.0]]
     assert layers.capture_positions(rows[0]).tolist() == [[5.0] * 3, [5.0] * 3]
+
+
+def test_heights_come_from_the_boxes_of_both_layers() -> None:
+    """A stored 4 stands for more than 0.3 m and at most 0.4 m; 0 is unknown, as is no column."""
+    boxed = replace(segments([1, 2]), extents=np.array([[9, 9, 4], [0, 0, 0]], np.uint8))
+    added = Delta(segments([5]), np.zeros(0, np.uint32))
+    layers = MapLayers.of(boxed).after(added)
+    np.testing.assert_allclose(layers.heights(np.array([2, 0, 1])), [np.nan, 0.35, np.nan])
+    plain = MapLayers.of(segments([1, 2]))
+    assert np.isnan(plain.heights(np.array([1, 0]))).all()
+    assert plain.heights(np.zeros(0, np.int64)).shape == (0,)
