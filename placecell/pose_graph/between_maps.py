@@ -133,8 +133,21 @@ def united(graphs: Sequence[GraphMap]) -> tuple[GraphMap, Int64]:
         np.concatenate(
             [each.captures + begin for each, begin in zip(graphs, begins.tolist(), strict=True)]
         ),
+        _sides(graphs),
     )
     return together, maps
+
+
+def _sides(graphs: Sequence[GraphMap]) -> Float64 | None:
+    """Return the sides of all segments' boxes, 0 for those of maps without; None if none has."""
+    if all(each.sides is None for each in graphs):
+        return None
+    return np.concatenate(
+        [
+            np.zeros((len(each.centroids), 2)) if each.sides is None else each.sides
+            for each in graphs
+        ]
+    )
 
 
 def initial_poses(

@@ -1,5 +1,7 @@
 """Maps of several robots, each in its own frame, bent by the loops between them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -54,6 +56,15 @@ def test_maps_have_tracks_of_their_own() -> None:
     frames, maps, _ = three_maps()
     assert [len(set(frames.odometry.tracks[maps == number])) for number in range(3)] == [1, 1, 1]
     assert len(set(frames.odometry.tracks.tolist())) == 3
+
+
+def test_boxes_stay_those_of_their_segments() -> None:
+    graphs = [graph(seed, place) for seed, place in enumerate(PLACES)]
+    sides = np.arange(2 * COUNT, dtype=np.float64).reshape(COUNT, 2)
+    together, _ = united([graphs[0], replace(graphs[1], sides=sides), graphs[2]])
+    assert together.sides is not None
+    assert np.array_equal(together.sides, np.concatenate([0 * sides, sides, 0 * sides]))
+    assert united(graphs)[0].sides is None
 
 
 @pytest.mark.parametrize("wrong", [0, 80])
