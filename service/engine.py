@@ -41,7 +41,7 @@ from placecell.pose_graph import PoseGraphParameters
 from service.annotations.annotations import Annotations, MirrorMark
 from service.annotations.writer import AnnotationWriter
 from service.core.auth import ANYONE, Principal
-from service.core.cost import check_cost, cost_of_aligning, cost_of_search
+from service.core.cost import check_cost, cost_of_aligning
 from service.core.metrics import Metrics
 from service.core.preconditions import Preconditions
 from service.core.settings import Settings
@@ -66,7 +66,7 @@ from service.maps.writes.maintenance import Maintenance, MaintenanceThresholds
 from service.maps.writes.partial_uploads import PartialUploads
 from service.maps.writes.writer import EditOptions, MapWriter, WriteResult
 from service.merging.alignment import AlignedMaps, K, MapSide, align_maps, check_same_model
-from service.merging.bending import OptimizedMap, Optimizer, check_solver, queries_of
+from service.merging.bending import OptimizedMap, Optimizer, check_solver, cost_of_loops
 from service.merging.carrying import carry_anchors
 from service.merging.loop_memory import LoopMemory
 from service.merging.merge import Merger, MergeResult
@@ -82,6 +82,7 @@ NO_CONDITIONS = Preconditions()
 ALIGN_SMALLER = "Align smaller maps, such as parts of these."
 
 MERGE_FEWER = "Merge fewer or smaller maps at once."
+BEND_FEWER = "Merge fewer or smaller maps at once, or with rigid: true."
 
 OPTIMIZE_SMALLER = "Optimize parts of the map, or raise the limit alignment_seconds."
 
@@ -634,9 +635,10 @@ class Engine:
         for each in maps:
             principal.check_map(each)
         options = parameters or AlignmentParameters()
+        self.check_alignments([name, *maps], MERGE_FEWER, options)
         if not rigid:
             check_solver()
-        self.check_alignments([name, *maps], MERGE_FEWER, options)
+            self._check_bending(name, maps)
         merger = Merger(
             writer=writer,
             parameters=options,
@@ -666,8 +668,7 @@ class Engine:
         writer = self._writer_to(name, principal, conditions)
         options = parameters or PoseGraphParameters()
         check_solver()
-        content = self.maps.get(name).layers.content()
-        cost = cost_of_search(queries_of(content, options), len(content), options.candidates, 1)
+        cost = cost_of_loops([self.maps.get(name).layers.content()], options)
         check_cost(cost, self.settings.limits.alignment_seconds, OPTIMIZE_SMALLER)
         return Optimizer(writer, options, dry_run, current().check, self.loops).optimize(name)
 
@@ -685,6 +686,14 @@ class Engine:
         sizes = [len(each) for each in snapshots]
         cost = cost_of_aligning(sizes, K, parameters or AlignmentParameters())
         check_cost(cost, self.settings.limits.alignment_seconds, remedy)
+
+    def _check_bending(self, name: str, maps: Sequence[str]) -> None:
+        """Check that the loops of maps, and of their merged map, are not too much work; 413."""
+        parameters, limit = PoseGraphParameters(), self.settings.limits.alignment_seconds
+        for names in ([name], maps):  # a map that was merged before is in both
+            found = [each for one in names if (each := self.maps.find(one)) is not None]
+            cost = cost_of_loops([each.layers.content() for each in found], parameters)
+            check_cost(cost, limit, BEND_FEWER)
 
     def _writer_to(
         self, name: str, principal: Principal, conditions: Preconditions = NO_CONDITIONS

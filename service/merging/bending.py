@@ -26,6 +26,7 @@ from placecell.pose_graph.known_loops import KnownLoops
 from placecell.pose_graph.loops import chosen_captures
 from placecell.pose_graph.odometry_correction import with_corrected_odometry
 from placecell.pose_graph.optimize import solver
+from service.core.cost import Cost, cost_of_search
 from service.core.problems import Problem
 from service.inference.model_registry import Model
 from service.maps.index import index_of
@@ -248,12 +249,15 @@ def robots_of_captures(content: CompactMap) -> tuple[str, ...]:
     return tuple(names)
 
 
-def queries_of(content: CompactMap, parameters: PoseGraphParameters) -> int:
-    """Return the number of segments that an optimization searches for."""
-    if not len(content):
-        return 0
-    captures = len(chosen_captures(graph_of(content), parameters))
-    return captures * parameters.landmarks * parameters.views
+def cost_of_loops(contents: Sequence[CompactMap], parameters: PoseGraphParameters) -> Cost:
+    """Return the cost of searching the loops within and between maps: a lower bound.
+
+    The localization of each capture takes about as long as the search, and is not counted.
+    """
+    maps = [each for each in contents if len(each)]
+    captures = sum(len(chosen_captures(graph_of(each), parameters)) for each in maps)
+    queries = captures * parameters.landmarks * parameters.views
+    return cost_of_search(queries, sum(map(len, maps)), parameters.candidates, 1)
 
 
 def _tracks_of(content: CompactMap) -> Int64:

@@ -15,6 +15,7 @@ from placecell.core.segments import Segments
 from placecell.descriptors.manifest import Manifest
 from placecell.descriptors.neighborhood import voxels_by_owner
 from placecell.map_alignment import AlignmentParameters
+from placecell.pose_graph import PoseGraphParameters
 from service.core.cost import (
     RATES,
     Cost,
@@ -26,6 +27,7 @@ from service.core.cost import (
 )
 from service.core.problems import Problem
 from service.core.settings import Limits
+from service.merging.bending import cost_of_loops
 from tests.service.merging.merged_map_builders import driven, merge, models_that_judge, put
 from tests.service.service_builders import assert_problem, cloud, request_of
 
@@ -147,6 +149,24 @@ def test_alignment_with_too_much_work_answers_413(start: Any, manifest: Manifest
         assert_problem(response, 413, "too-much-work", "Align smaller maps")
         response = merge(service, "site", ["east", "west"])
         assert_problem(response, 413, "too-much-work", "Merge fewer or smaller maps")
+
+
+def test_merge_that_bends_with_too_much_work_answers_413_before_it_begins(
+    start: Any, manifest: Manifest
+) -> None:
+    maps = {
+        "east": driven(manifest.model_id, "east", 0, 150),
+        "west": driven(manifest.model_id, "west", 60, 200),
+    }
+    limit = 0.9 * cost_of_loops(list(maps.values()), PoseGraphParameters()).seconds
+    sizes = [len(each) for each in maps.values()]
+    assert limit > cost_of_aligning(sizes, 25, AlignmentParameters()).seconds
+    with start(limits={"alignment_seconds": limit}) as service:
+        for name, content in maps.items():
+            put(service, name, content)
+        response = merge(service, "site", ["east", "west"], rigid=False)
+        assert_problem(response, 413, "too-much-work", "or with rigid: true")
+        assert service.get("/maps/site").status_code == 404
 
 
 def test_info_shows_rates_and_limits(service: Any) -> None:
