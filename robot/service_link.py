@@ -78,14 +78,14 @@ class ServiceLink:
         )
         return FixAnswer(request, "service", transform, covariance, best.probability, "")
 
-    def upload(self, name: str, delta: bytes, create: bool) -> None:
-        """Store an edit in a map.
+    def upload(self, name: str, delta: bytes, robot: str, create: bool) -> None:
+        """Store an edit of a robot in a map.
 
         Raises:
             LinkError, RefusedError: the edit may not be stored.
         """
         try:
-            self._client.edit_map(name, delta, create=create, deduplicate=True)
+            self._client.edit_map(name, delta, robot=robot, create=create, deduplicate=True)
         except (ServiceError, httpx.TransportError) as error:
             raise as_link_error(error) from error
 

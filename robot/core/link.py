@@ -106,12 +106,14 @@ class Link(Protocol):
     def localize(self, request: FixRequest) -> FixAnswer:
         """Request the pose of the robot."""
 
-    def upload(self, name: str, delta: bytes, create: bool) -> None:
+    def upload(self, name: str, delta: bytes, robot: str, create: bool) -> None:
         """Store an edit in a map.
 
         Args:
             name: name of the map.
             delta: delta file.
+            robot: robot whose segments the edit may remove. A delta file that only removes segments
+                names none.
             create: create the map if it does not exist.
         """
 

@@ -88,7 +88,7 @@ def send_one(link: Link, entry: SpoolEntry, known: str | None, name: str, robot:
     """
     if known is not None:
         try:
-            link.upload(known, entry.content, create=False)
+            link.upload(known, entry.content, robot, create=False)
             return known
         except RefusedError as error:
             # Somebody removed or replaced the map: begin another one.
@@ -96,7 +96,7 @@ def send_one(link: Link, entry: SpoolEntry, known: str | None, name: str, robot:
                 raise
     for candidate in names_for(name, robot):
         try:
-            link.upload(candidate, entry.content, create=True)
+            link.upload(candidate, entry.content, robot, create=True)
             return candidate
         except RefusedError as error:
             if error.kind not in NOT_OURS:

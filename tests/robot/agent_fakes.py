@@ -74,6 +74,11 @@ def answer_of(request: FixRequest, transform: Float64 | None, source: Any) -> Fi
     return FixAnswer(request, source, transform, covariance, 0.99, "")
 
 
+def owners_of(content: CompactMap, ids: ArrayLike) -> set[str]:
+    """Return the robots of some segments of a map."""
+    return {content.robots[each] for each in content.robot[np.isin(content.ids, ids)].tolist()}
+
+
 class FakeLink:
     """Link to a service in memory.
 
@@ -98,7 +103,7 @@ class FakeLink:
         self.asked.append(request)
         return answer_of(request, self.transform, "service")
 
-    def upload(self, name: str, delta: bytes, create: bool) -> None:
+    def upload(self, name: str, delta: bytes, robot: str, create: bool) -> None:
         self._fail()
         edit: Delta = decode_delta(delta)
         stored = self.maps.get(name)
@@ -106,6 +111,8 @@ class FakeLink:
             raise RefusedError("no such map", 404, "unknown-map")
         if stored is not None and stored.frame != edit.changed.frame:
             raise RefusedError("another frame", 409, "other-frame")
+        if stored is not None and owners_of(stored, edit.removed) - {robot, *edit.changed.robots}:
+            raise RefusedError("segments of others", 409, "id-taken")
         self.maps[name] = edit.changed if stored is None else apply(stored, edit)
         self.uploads.append((name, delta))
         if self.lost_answers:

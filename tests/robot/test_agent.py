@@ -366,9 +366,9 @@ class FullOutput(NoOutput):
 class SlowLink(FakeLink):
     """Link whose uploads take longer than a scan."""
 
-    def upload(self, name: str, delta: bytes, create: bool) -> None:
+    def upload(self, name: str, delta: bytes, robot: str, create: bool) -> None:
         time.sleep(0.2)
-        super().upload(name, delta, create)
+        super().upload(name, delta, robot, create)
 
 
 class DeafLink(FakeLink):

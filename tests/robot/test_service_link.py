@@ -50,7 +50,7 @@ def refuses(status: int, kind: str = "some", **headers: str) -> Handler:
 def test_temporary_refusals_are_worth_another_try(status: int, again: bool) -> None:
     link = link_of(refuses(status, "other-frame", **{"Retry-After": "3"}))
     with pytest.raises(LinkError if again else RefusedError) as caught:
-        link.upload("yard", b"delta", create=True)
+        link.upload("yard", b"delta", "ann", create=True)
     if isinstance(caught.value, LinkError):
         assert caught.value.was_reached
         assert caught.value.retry_after == 3.0
@@ -85,7 +85,7 @@ def test_unreachable_service_is_told_as_not_reached() -> None:
 
     link = link_of(handler)
     calls = (
-        lambda: link.upload("yard", b"", create=False),
+        lambda: link.upload("yard", b"", "ann", create=False),
         lambda: link.localize(REQUEST),
         lambda: link.pull(MapCopy("yard")),
         lambda: link.report("robot", AgentStatus(), None),

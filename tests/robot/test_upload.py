@@ -10,7 +10,7 @@ from robot.mapping.upload import names_for, send
 from tests.robot.agent_fakes import FakeLink
 
 
-def edit(ids: list[int], frame: str = "robot/session/0") -> bytes:
+def edit(ids: list[int], frame: str = "robot/session/0", removed: tuple[int, ...] = ()) -> bytes:
     count = len(ids)
     content = CompactMap(
         model_id="fake-0123",
@@ -19,14 +19,14 @@ def edit(ids: list[int], frame: str = "robot/session/0") -> bytes:
         codes=np.zeros((count, 4), np.int8),
         centroids=np.zeros((count, 3)),
         ids=np.array(ids, np.uint32),
-        robots=("robot",),
+        robots=("robot",) if count else (),
         robot=np.zeros(count, np.uint16),
         frame_index=np.zeros(count, np.uint32),
         frame_times=np.zeros(1),
         frame_positions=np.zeros((1, 3)),
         frame_orientations=np.array([[0, 0, 0, 1]], np.float32),
     )
-    return encode_delta(Delta(content, np.zeros(0, np.uint32)))
+    return encode_delta(Delta(content, np.array(removed, np.uint32)))
 
 
 def entry(number: int, content: bytes, part: int = 0) -> SpoolEntry:
@@ -51,6 +51,15 @@ def test_first_edit_creates_the_map_and_the_others_extend_it() -> None:
     result = send(link, [entry(1, edit([0])), entry(2, edit([1]))], {}, "yard", "robot")
     assert [name for _, name in result.sent] == ["yard", "yard"]
     assert link.maps["yard"].ids.tolist() == [0, 1]
+
+
+def test_edit_that_only_removes_segments_goes_to_the_same_map() -> None:
+    link = FakeLink()
+    edits = [edit([0, 1]), edit([], removed=(1,)), edit([2])]
+    entries = [entry(number, content) for number, content in enumerate(edits)]
+    result = send(link, entries, {}, "yard", "robot")
+    assert [name for _, name in result.sent] == ["yard"] * 3
+    assert link.maps["yard"].ids.tolist() == [0, 2]
 
 
 def test_map_of_another_robot_is_not_changed() -> None:
@@ -80,10 +89,10 @@ def test_failure_in_the_middle_keeps_the_rest() -> None:
     failing = edit([2])
     upload = link.upload
 
-    def refuse(name: str, delta: bytes, create: bool) -> None:
+    def refuse(name: str, delta: bytes, robot: str, create: bool) -> None:
         if delta == failing:
             raise LinkError("busy", 7.0, was_reached=True)
-        upload(name, delta, create)
+        upload(name, delta, robot, create)
 
     link.upload = refuse  # type: ignore[method-assign]
     result = send(link, [entry(1, edit([0])), entry(2, failing)], {}, "yard", "robot")

@@ -1,4 +1,4 @@
-"""Two agents that write one map at the same time: no segment takes the id of another."""
+"""Agents that write maps: no segment takes the id of another, and each robot removes its own."""
 
 from concurrent.futures import ThreadPoolExecutor
 from threading import Barrier
@@ -11,6 +11,7 @@ from placecell_client.http.retry import Retries
 from placecell.core.types import Int8
 from placecell.descriptors.manifest import Manifest
 from robot.core.settings import AgentSettings
+from robot.mapping.map_out import Capture, EditMaker, SeenSegments
 from robot.mapping.spool import SpoolEntry
 from robot.mapping.upload import send
 from robot.service_link import ServiceLink
@@ -26,11 +27,11 @@ class MeetingLink(ServiceLink):
         super().__init__(client)
         self._barrier: Barrier | None = barrier
 
-    def upload(self, name: str, delta: bytes, create: bool) -> None:
+    def upload(self, name: str, delta: bytes, robot: str, create: bool) -> None:
         barrier, self._barrier = self._barrier, None
         if barrier is not None:
             barrier.wait(30.0)
-        super().upload(name, delta, create)
+        super().upload(name, delta, robot, create)
 
 
 def codes_of(robot: str) -> Int8:
@@ -88,3 +89,23 @@ def test_agents_of_one_name_have_their_own_sessions_and_maps(
     second = upload(link, AgentSettings(map="yard"), manifest.model_id)
     assert (first, second) == ({"yard"}, {"yard-robot"})
     assert service.get("/maps/yard").content == before
+
+
+def test_robot_removes_its_own_segments_with_an_edit_that_adds_none(
+    service: Any, manifest: Manifest
+) -> None:
+    """A segment is seen to move at a keyframe that shows nothing new."""
+    client = Client("http://testserver", transport=service._transport, retries=Retries(attempts=1))
+    edits = EditMaker("ann", "s")
+    entries: list[SpoolEntry] = []
+    for meters, ids, moved in ((0.0, [1, 2], []), (2.0, [1], [2]), (4.0, [1, 3], [])):
+        codes = random_codes(len(ids), seed=len(entries))
+        centroids = 5.0 * np.array(ids)[:, None] * np.ones(3)
+        seen = SeenSegments(np.array(ids), codes, centroids, manifest.model_id, "1")
+        capture = Capture(meters, np.eye(4))
+        edit = edits.add(seen, capture, meters, np.array(moved, np.int64))
+        assert edit is not None
+        entries.append(SpoolEntry(edit.sequence, "s", edit.part, edit.content))
+    result = send(ServiceLink(client), entries, {}, "yard", "ann")
+    assert [name for _, name in result.sent] == ["yard"] * 3, result
+    assert decode(service.get("/maps/yard").content).ids.tolist() == [0, 2]
