@@ -8,7 +8,8 @@ from starlette.middleware.cors import CORSMiddleware
 
 from service.api import error_handlers, openapi
 from service.api.body.problem_json import documented
-from service.api.dependencies import caught_up
+from service.api.dependencies import caught_up, principal_of
+from service.api.known_query import known_query
 from service.api.middleware.body_limit import BodyLimit
 from service.api.middleware.head import Head
 from service.api.middleware.origin_guard import OriginGuard
@@ -142,11 +143,16 @@ def create_app(settings: Settings, state: State | None = None) -> FastAPI:
     if settings.docs:
         docs_pages.install(app)
     page.install(app, settings.page)
+    checks = [Depends(principal_of), Depends(known_query)]
     for module in ROUTES:
-        if module in WITHOUT_MAPS:
+        if module is health:  # its probes ignore what a balancer or a browser adds to the query
             app.include_router(module.router)
+        elif module in WITHOUT_MAPS:
+            app.include_router(module.router, dependencies=checks, responses=documented(422))
         else:
             app.include_router(
-                module.router, dependencies=[Depends(caught_up)], responses=documented(422, 503)
+                module.router,
+                dependencies=[*checks, Depends(caught_up)],
+                responses=documented(422, 503),
             )
     return app

@@ -65,7 +65,7 @@ def _route(route: dict[str, Any]) -> str:
             good.append(f"{status} {shown}".strip())
     parts.append(f"Answer: {'; '.join(good)}.\n")
     if refused:
-        parts.append(f"\nProblems: {', '.join(refused)} ([errors](errors.md)).\n")
+        parts.append(f"\nProblems: {', '.join(sorted(refused))} ([errors](errors.md)).\n")
     return "".join(parts)
 
 

@@ -85,7 +85,8 @@ class LastPoseHint:
         if self.radius is not None:
             _check_positive("radius", self.radius)
         if self.covariance is not None:
-            _check_covariance(self.covariance)
+            check_covariance(self.covariance)
+            _check_spread(self.covariance)
         if self.orientation is not None:
             _check_quaternion(self.orientation)
         if self.yaw_tolerance is not None:
@@ -280,7 +281,7 @@ def _check_positive(name: str, value: float) -> None:
 
 def _check_quaternion(values: Numbers) -> None:
     _check_numbers("orientation", values, (4,))
-    norm = math.sqrt(sum(float(each) ** 2 for each in values))
+    norm = math.hypot(*map(float, values))
     if not 0.9 < norm < 1.1:
         raise ValueError(
             f"Invalid orientation with length {norm:.3g}: expected a unit quaternion x, y, z, w."
@@ -295,7 +296,20 @@ def _check_heading(rows: Sequence[Sequence[float]] | NDArray[Any]) -> None:
         )
 
 
-def _check_covariance(rows: Sequence[Sequence[float]] | NDArray[Any]) -> None:
+def _check_spread(rows: Sequence[Sequence[float]] | NDArray[Any]) -> None:
+    if not np.asarray(rows, np.float64).diagonal()[:3].any():
+        raise ValueError(
+            "Invalid covariance: all variances of the position are 0, so that no pose is within "
+            "the hint. Give the real covariance, or a radius."
+        )
+
+
+def check_covariance(rows: Sequence[Sequence[float]] | NDArray[Any]) -> None:
+    """Check the covariance of a pose: 3, 4 or 6 rows, symmetric, without negative eigenvalues.
+
+    Raises:
+        ValueError: It is none; the message says why.
+    """
     size = len(rows)
     if size not in (3, 4, 6):
         raise ValueError(f"Invalid covariance with {size} rows: expected 3, 4 or 6.")
@@ -309,13 +323,8 @@ def _check_covariance(rows: Sequence[Sequence[float]] | NDArray[Any]) -> None:
     largest = float(np.abs(matrix).max())
     if largest > LARGEST_VARIANCE:
         raise ValueError(
-            f"Invalid covariance: the value {largest:g} is above {LARGEST_VARIANCE:g}. Leave out "
-            "the hint if the position is not known."
-        )
-    if not matrix.diagonal()[:3].any():
-        raise ValueError(
-            "Invalid covariance: all variances of the position are 0, so that no pose is within "
-            "the hint. Give the real covariance, or a radius."
+            f"Invalid covariance: the value {largest:g} is above {LARGEST_VARIANCE:g}. Leave it "
+            "out if the position is not known."
         )
     apart = np.argwhere(np.abs(matrix - matrix.T) > UNEVEN * largest)
     if len(apart):

@@ -155,6 +155,7 @@ def moves(**columns: Any) -> MovedCaptures:
 @pytest.mark.parametrize(
     ("columns", "named"),
     [
+        ({"ids": np.array(3, np.uint32)}, "moved_ids"),
         ({"ids": np.array([9, 3], np.uint32)}, "moved_ids"),
         ({"ids": np.array([3, 9])}, "moved_ids"),
         ({"positions": np.full((2, 3), np.nan)}, "moved_positions"),

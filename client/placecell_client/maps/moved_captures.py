@@ -66,7 +66,7 @@ class MovedCaptures:
         Raises:
             MapFileError: A column is invalid; the message names it.
         """
-        k = len(self.ids)
+        k = self.ids.size
         columns: list[tuple[str, NDArray[Any] | None, type, tuple[int, ...]]] = [
             ("moved_ids", self.ids, np.uint32, (k,)),
             ("moved_positions", self.positions, np.float64, (k, 3)),

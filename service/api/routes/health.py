@@ -3,7 +3,7 @@
 from dataclasses import asdict
 
 import anyio.to_thread
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Depends, Request, Response
 from fastapi.responses import PlainTextResponse
 from placecell_client.maps.map_file import FORMAT, MEDIA_TYPE, VERSION
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
@@ -11,6 +11,7 @@ from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from placecell.localization import Confidence
 from service.api.body.problem_json import documented
 from service.api.dependencies import PrincipalOf, StateOf, principal_of
+from service.api.known_query import known_query
 from service.api.schemas.info import (
     AcceptanceOut,
     CostsOut,
@@ -76,7 +77,12 @@ async def metrics(state: StateOf) -> Response:
     return Response(generate_latest(state.metrics.registry), media_type=CONTENT_TYPE_LATEST)
 
 
-@router.get("/info", summary="Read version, models and limits", responses=documented(401))
+@router.get(
+    "/info",
+    summary="Read version, models and limits",
+    responses=documented(401, 422),
+    dependencies=[Depends(known_query)],
+)
 async def info(request: Request, state: StateOf, principal: PrincipalOf) -> InfoResponse:
     """Return the facts that a client needs before its first request."""
     del principal  # any key may read them
@@ -91,7 +97,12 @@ async def info(request: Request, state: StateOf, principal: PrincipalOf) -> Info
     )
 
 
-@router.get("/key", summary="Read the scope of the key")
+@router.get(
+    "/key",
+    summary="Read the scope of the key",
+    responses=documented(422),
+    dependencies=[Depends(known_query)],
+)
 async def key(request: Request, state: StateOf) -> KeyResponse:
     """Return what the key of this request may do, so that a program offers no more.
 

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Generic, Literal, Self, TypeVar
 
-from placecell_client.maps.compact_map import COORDINATE_LIMIT
+from placecell_client.maps.compact_map import COORDINATE_LIMIT, TIME_LIMIT
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, JsonValue, model_validator
 
 from service.core.settings import NAMED_MAPS
@@ -12,8 +12,10 @@ Coordinate = Annotated[
 ]
 Point = tuple[Coordinate, Coordinate, Coordinate]
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Time = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-TIME_LIMIT, le=TIME_LIMIT)]
 Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0)]
-Quaternion = tuple[Finite, Finite, Finite, Finite]
+UnitPart = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=-2, le=2)]
+Quaternion = tuple[UnitPart, UnitPart, UnitPart, UnitPart]
 Covariance = Annotated[
     list[Annotated[list[Finite], Field(min_length=3, max_length=6)]],
     Field(min_length=3, max_length=6),

@@ -3,15 +3,16 @@
 from typing import Annotated, Literal, Self
 
 import numpy as np
+from placecell_client.hints import check_covariance
 from pydantic import BaseModel, Field, model_validator
 
 from service.api.schemas.recognition import (
     Covariance,
-    Finite,
     Name,
     Point,
     Quaternion,
     Request,
+    Time,
 )
 
 # Lists, as some readers of OpenAPI do not understand the schema of a nullable tuple.
@@ -47,7 +48,7 @@ class RobotReportIn(Request):
     reason: Annotated[str, Field(strict=True, max_length=200)] = Field(
         "", description="Reason for the state, in words."
     )
-    time: Finite | None = Field(None, description="Time of the robot's clock, Unix seconds.")
+    time: Time | None = Field(None, description="Time of the robot's clock, Unix seconds.")
 
     @model_validator(mode="after")
     def _is_consistent(self) -> Self:
@@ -55,9 +56,8 @@ class RobotReportIn(Request):
             raise ValueError("a pose needs both map and position; a robot without one has neither")
         if not 0.9 < float(np.linalg.norm(self.orientation)) < 1.1:
             raise ValueError("the orientation needs a unit quaternion x, y, z, w")
-        rows = self.covariance or []
-        if len(rows) == 5 or any(len(row) != len(rows) for row in rows):
-            raise ValueError("the covariance needs 3, 4 or 6 rows of as many values")
+        if self.covariance is not None:
+            check_covariance(self.covariance)
         return self
 
 
