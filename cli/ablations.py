@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from cli.experiments import name
+from cli.outputs import output_folder
 from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, source, sources
 from cli.tables import progress_console
 
@@ -24,7 +25,13 @@ def ablations(
         str, typer.Option(help="Test drive. " + SOURCE_HELP, metavar="DRIVE[@FIRST:LAST]")
     ],
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for the runs, the models and the report.")
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            callback=output_folder,
+            help="Folder for the runs, the models and the report.",
+        ),
     ] = Path("out/ablations"),
     epochs: Annotated[int, typer.Option(min=1, help="Number of epochs of each training.")] = 6,
     seeds: Annotated[int, typer.Option(min=1, help="Number of seeds for the unchanged model.")] = 3,

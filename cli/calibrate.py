@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cli.common_options import Every, Model
+from cli.outputs import output_file
 from cli.sources import clear_errors, load
 from cli.tables import JsonFile, new_table, percent, print_tables, write_json
 
@@ -38,6 +39,7 @@ def calibrate(
             "--output",
             "-o",
             metavar="FILE",
+            callback=output_file,
             help="JSON file for the constants. As calibration.json in the model's folder, it "
             "replaces the constants of the manifest. (default: none)",
         ),

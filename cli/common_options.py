@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from cli.outputs import output_folder
 from cli.sources import ROBOT_B_HELP, SOURCE_HELP, TOWN_HELP
 
 Drive = Annotated[
@@ -58,7 +59,10 @@ Ignore = Annotated[
         "(default: none)",
     ),
 ]
-Runs = Annotated[Path, typer.Option(help="Folder for checkpoints and training histories.")]
+Runs = Annotated[
+    Path,
+    typer.Option(callback=output_folder, help="Folder for checkpoints and training histories."),
+]
 Resume = Annotated[
     bool, typer.Option("--resume", help="Continue from the last checkpoint of this run.")
 ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from cli.outputs import output_folder
 from cli.sources import clear_errors, fail, show
 from cli.tables import JsonFile, new_table, print_tables, write_json
 
@@ -24,7 +25,13 @@ def demo(
         ),
     ] = None,
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for the pictures and the figures.")
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            callback=output_folder,
+            help="Folder for the pictures and the figures.",
+        ),
     ] = Path("out/demo"),
     seed: Annotated[
         int, typer.Option(help="Random seed of the town and of robot B's coordinate frame.")

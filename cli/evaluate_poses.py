@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cli.common_options import Every, Model
+from cli.outputs import output_file, output_folder, picture_file
 from cli.sources import clear_errors, parse_town, protocol_named, show
 from cli.tables import JsonFile, new_table, percent, print_tables, write_json
 
@@ -118,6 +119,7 @@ def evaluate_poses(
     cache: Annotated[
         Path | None,
         typer.Option(
+            callback=output_folder,
             help="Folder that keeps the prepared drives for the next call. (default: none)",
             rich_help_panel=TOWN,
         ),
@@ -143,13 +145,17 @@ def evaluate_poses(
     answers: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="File for the result of each query, one JSON object per line."
+            metavar="FILE",
+            callback=output_file,
+            help="File for the result of each query, one JSON object per line.",
         ),
     ] = None,
     plot: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="PNG file for a plot of precision, recall and reliability."
+            metavar="FILE",
+            callback=picture_file,
+            help="PNG file for a plot of precision, recall and reliability.",
         ),
     ] = None,
 ) -> None:

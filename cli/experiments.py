@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from cli.outputs import output_folder
 from cli.sources import SOURCE_HELP, TOWN_HELP, clear_errors, source, sources, town_recordings
 from cli.tables import progress_console
 
@@ -26,6 +27,7 @@ def experiments(
         typer.Option(
             "--output",
             "-o",
+            callback=output_folder,
             help="Folder for the runs, the models and the report. "
             "(default: out/experiments; out/experiments-quick with --quick)",
         ),

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from cli.common_options import Classes, Ignore
+from cli.outputs import output_file
 from cli.sources import clear_errors
 from cli.tables import progress_console
 from placecell.export.targets import ColorBy, Target
@@ -21,7 +22,12 @@ def export(
     to: Annotated[Target, typer.Option(help="Format to write.")],
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="File to write. (default: SOURCE with the new suffix)"),
+        typer.Option(
+            "--output",
+            "-o",
+            callback=output_file,
+            help="File to write. (default: SOURCE with the new suffix)",
+        ),
     ] = None,
     color: Annotated[
         ColorBy, typer.Option(help="Number of a segment that decides its color.")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cli.common_options import Model
+from cli.outputs import output_file
 from cli.sources import DEFAULT_SENSOR, clear_errors, parse_town, show
 from cli.tables import JsonFile, new_table, print_tables, write_json
 
@@ -226,6 +227,7 @@ def fit_confidence(
             "--output",
             "-o",
             metavar="FILE",
+            callback=output_file,
             help="JSON file for the constants. (default: the file that the service reads)",
         ),
     ] = None,

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from cli.outputs import picture_file
 from cli.sources import clear_errors, show
 from cli.tables import JsonFile, new_table, percent, print_tables, write_json
 
@@ -27,6 +28,7 @@ def inspect(
         Path | None,
         typer.Option(
             metavar="FILE",
+            callback=picture_file,
             help="PNG file for a picture of one scan: raw, ground and segments, obliquely and "
             "from above.",
         ),

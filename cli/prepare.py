@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from cli.common_options import Every, Segmentation
+from cli.outputs import output_folder
 from cli.sources import clear_errors, load, protocol_named
 from cli.tables import JsonFile, write_json
 
@@ -20,7 +21,12 @@ def prepare(
     ],
     output: Annotated[
         Path,
-        typer.Option("--output", "-o", help="Folder for the recordings, NAME.safetensors each."),
+        typer.Option(
+            "--output",
+            "-o",
+            callback=output_folder,
+            help="Folder for the recordings, NAME.safetensors each.",
+        ),
     ] = Path("data"),
     every: Every = None,
     segmentation: Segmentation = "v1",

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cli.maps.connection import KEY_VARIABLE
+from cli.outputs import output_file, output_folder
 from cli.sources import TOWN_SCANS, clear_errors, parse_town, show
 from cli.tables import JsonFlag, new_table, print_json, print_tables
 from placecell.sources.scan_options import current_scan_options
@@ -107,6 +108,7 @@ def robot(
         Path | None,
         typer.Option(
             metavar="FOLDER",
+            callback=output_folder,
             help="Folder of what must survive a reboot: edits that were not sent, the last pose, "
             "the pulled map. A command that was killed continues there. (default: kept in memory)",
         ),
@@ -150,6 +152,7 @@ def robot(
         Path | None,
         typer.Option(
             metavar="FILE",
+            callback=output_file,
             help="Trajectory in the map: KITTI format if the name ends in .kitti, else TUM format.",
             rich_help_panel=OUTPUTS,
         ),
@@ -158,6 +161,7 @@ def robot(
         Path | None,
         typer.Option(
             metavar="FILE",
+            callback=output_file,
             help="MCAP file for Foxglove: clouds, segments and poses.",
             rich_help_panel=OUTPUTS,
         ),
@@ -166,6 +170,7 @@ def robot(
         Path | None,
         typer.Option(
             metavar="FILE",
+            callback=output_file,
             help="File to which fixes, states and keyframes are appended, one JSON object a line.",
             rich_help_panel=OUTPUTS,
         ),

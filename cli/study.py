@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from cli.common_options import Models
+from cli.outputs import output_folder
 from cli.sources import SOURCE_HELP, clear_errors, source
 from cli.tables import JsonFile, progress_console, write_json
 
@@ -15,7 +16,10 @@ def study(
     drive: Annotated[str, typer.Argument(help=SOURCE_HELP, metavar="DRIVE[@FIRST:LAST]")],
     model: Models = None,
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for study.json and study.png.")
+        Path,
+        typer.Option(
+            "--output", "-o", callback=output_folder, help="Folder for study.json and study.png."
+        ),
     ] = Path("out/study"),
     json_file: JsonFile = None,
 ) -> None:

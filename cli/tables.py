@@ -1,6 +1,7 @@
 """Tables and JSON on standard output: colored on a terminal, plain and complete in a pipe."""
 
 import json
+import math
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -8,13 +9,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from cli.outputs import output_file
+
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
 JsonFlag = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 JsonFile = Annotated[
-    Path | None, typer.Option("--json", metavar="FILE", help="JSON file for the figures.")
+    Path | None,
+    typer.Option("--json", metavar="FILE", callback=output_file, help="JSON file for the figures."),
 ]
 
 UNBOUNDED = 1_000_000
@@ -79,23 +83,33 @@ def percent(value: float | None) -> str:
 
 
 def print_json(content: Any) -> None:
-    """Print JSON, with arrays as lists."""
-    typer.echo(json.dumps(content, indent=2, default=_plain))
+    """Print JSON, with arrays as lists and null for numbers that are not finite."""
+    typer.echo(_json_of(content))
 
 
 def write_json(content: Any, file: Path | None) -> None:
     """Write figures as JSON if a file is named."""
     if file:
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(json.dumps(content, indent=2, default=_plain) + "\n", encoding="utf-8")
+        file.write_text(_json_of(content) + "\n", encoding="utf-8")
+
+
+def _json_of(content: Any) -> str:
+    return json.dumps(_plain(content), indent=2, allow_nan=False)
 
 
 def _plain(value: Any) -> Any:
-    """Convert an array, a NumPy number, a path or a set to a JSON value."""
+    """Return a value as JSON has it: arrays and sets as lists, NaN and infinity as null."""
     if hasattr(value, "tolist"):
-        return value.tolist()
-    if isinstance(value, set | frozenset | tuple):
-        return list(value)
+        return _plain(value.tolist())
+    if isinstance(value, dict):
+        return {key: _plain(each) for key, each in value.items()}
+    if isinstance(value, list | tuple | set | frozenset):
+        return [_plain(each) for each in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
     if isinstance(value, Path):
         return str(value)
+    if value is None or isinstance(value, str | int):
+        return value
     raise TypeError(f"{type(value).__name__} cannot be written as JSON")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cli.common_options import License, Resume, Runs, TrainingDrives
+from cli.outputs import output_folder
 from cli.sources import clear_errors, sources
 from cli.tables import progress_console
 
@@ -30,7 +31,12 @@ def train(
     drives: TrainingDrives,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Folder for the model. (default: models/METHOD)"),
+        typer.Option(
+            "--output",
+            "-o",
+            callback=output_folder,
+            help="Folder for the model. (default: models/METHOD)",
+        ),
     ] = None,
     seed: Annotated[int, typer.Option(help="Random seed of the training.")] = 0,
     network: Annotated[

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cli.labeled_drives import cached_labeled
+from cli.outputs import output_folder
 from cli.sources import TOWN_HELP, clear_errors
 
 if TYPE_CHECKING:
@@ -38,7 +39,8 @@ def train_classes(
     cache: Annotated[
         Path | None,
         typer.Option(
-            help="Folder that keeps the segmented drives for the next call. (default: none)"
+            callback=output_folder,
+            help="Folder that keeps the segmented drives for the next call. (default: none)",
         ),
     ] = None,
     license_name: Annotated[

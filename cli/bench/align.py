@@ -7,6 +7,7 @@ import typer
 
 from cli.bench.options import JsonFile, write_json
 from cli.common_options import Model
+from cli.outputs import picture_file
 from cli.sources import clear_errors, show
 from cli.tables import new_table, print_tables
 
@@ -27,7 +28,11 @@ def align(
     json_file: JsonFile = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="PNG file for a plot of agreement against overlap."),
+        typer.Option(
+            metavar="FILE",
+            callback=picture_file,
+            help="PNG file for a plot of agreement against overlap.",
+        ),
     ] = None,
 ) -> None:
     """Measure the alignment of map pairs; half of the pairs overlap, the others do not.

@@ -7,6 +7,7 @@ import typer
 
 from cli.bench.options import JsonFile, write_json
 from cli.drive_options import tell
+from cli.outputs import output_folder
 from cli.sources import clear_errors
 from cli.tables import new_table, print_tables
 
@@ -42,7 +43,10 @@ def drift(
     ] = True,
     seed: Annotated[int, typer.Option(help="Seed of towns, routes and noise.")] = 7,
     cache: Annotated[
-        Path, typer.Option(metavar="FOLDER", help="Folder where simulated maps are kept.")
+        Path,
+        typer.Option(
+            metavar="FOLDER", callback=output_folder, help="Folder where simulated maps are kept."
+        ),
     ] = Path("out/drift"),
     every: Annotated[
         float,

@@ -7,6 +7,7 @@ import typer
 
 from cli.bench.options import JsonFile, write_json
 from cli.common_options import Drive, Model
+from cli.outputs import picture_file
 from cli.sources import clear_errors, load, parse_scans
 from cli.tables import new_table, print_tables
 
@@ -25,7 +26,11 @@ def ladder(
     json_file: JsonFile = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="PNG file for a plot of recognition against bytes."),
+        typer.Option(
+            metavar="FILE",
+            callback=picture_file,
+            help="PNG file for a plot of recognition against bytes.",
+        ),
     ] = None,
 ) -> None:
     """Measure the bytes and the recognition rate of each way to store descriptors."""

@@ -7,6 +7,7 @@ import typer
 
 from cli.bench.options import JsonFile, write_json
 from cli.drive_options import tell
+from cli.outputs import output_folder
 from cli.sources import clear_errors
 from cli.tables import new_table, print_tables
 
@@ -21,7 +22,12 @@ def long_life(
     ] = None,
     scans: Annotated[int, typer.Option(min=10, help="Number of scans of each drive.")] = 120,
     cache: Annotated[
-        Path, typer.Option(metavar="FOLDER", help="Folder where segments of drives are kept.")
+        Path,
+        typer.Option(
+            metavar="FOLDER",
+            callback=output_folder,
+            help="Folder where segments of drives are kept.",
+        ),
     ] = Path("out/long-life"),
     json_file: JsonFile = None,
 ) -> None:

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from cli.bench.options import JsonFile, Kept, Seed, Source, recording_from, write_json
+from cli.outputs import picture_file
 from cli.sources import clear_errors, show
 from cli.tables import new_table, print_tables
 
@@ -25,7 +26,11 @@ def maps(
     json_file: JsonFile = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="PNG file for plots of latency, memory and start time."),
+        typer.Option(
+            metavar="FILE",
+            callback=picture_file,
+            help="PNG file for plots of latency, memory and start time.",
+        ),
     ] = None,
     output: Kept = Path("out/bench"),
     seed: Seed = 7,

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from cli.outputs import output_folder
 from cli.sources import load, show
 from cli.tables import JsonFile, write_json
 
@@ -26,7 +27,10 @@ Source = Annotated[
 Kept = Annotated[
     Path,
     typer.Option(
-        "--output", "-o", help="Folder that caches the town's drive and the paper's network."
+        "--output",
+        "-o",
+        callback=output_folder,
+        help="Folder that caches the town's drive and the paper's network.",
     ),
 ]
 Seed = Annotated[int, typer.Option(help="Random seed of the town and of all random choices.")]

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from cli.bench.options import JsonFile, Seed, write_json
+from cli.outputs import output_folder
 from cli.sources import clear_errors, show
 from cli.tables import new_table, print_tables
 
@@ -22,6 +23,7 @@ def page(
         Path | None,
         typer.Option(
             metavar="FOLDER",
+            callback=output_folder,
             help="Folder for pictures of each view, of 1280 and of 390 pixels' width, with two "
             "robots of a town. With it, nothing is measured.",
         ),

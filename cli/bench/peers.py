@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from cli.bench.options import JsonFile, write_json
+from cli.outputs import output_folder
 from cli.sources import clear_errors, show
 from cli.tables import new_table, percent, print_tables
 
@@ -52,7 +53,13 @@ def peers(
         typer.Option(help="Python interpreter of the other systems; 'make peers' installs it."),
     ] = DEFAULT_PYTHON,
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder for the local maps and the results.")
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            callback=output_folder,
+            help="Folder for the local maps and the results.",
+        ),
     ] = Path("out/peers"),
     seed: Annotated[int, typer.Option(help="Random seed for the queries' headings.")] = 0,
     resume: Annotated[

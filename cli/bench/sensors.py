@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from cli.common_options import Every, Model
+from cli.outputs import output_file, output_folder
 from cli.sources import clear_errors, show
 
 
@@ -15,12 +16,16 @@ def sensors(
         typer.Option(
             "--json",
             metavar="FILE",
+            callback=output_file,
             help="JSON file for the figures. Finished cells are kept in it: the same command "
             "continues a stopped run. (default: sensors.json in the folder of --cache)",
         ),
     ] = None,
     cache: Annotated[
-        Path, typer.Option(help="Folder that keeps the prepared drives of each sensor.")
+        Path,
+        typer.Option(
+            callback=output_folder, help="Folder that keeps the prepared drives of each sensor."
+        ),
     ] = Path("out/sensors"),
     sensor: Annotated[
         list[str] | None,

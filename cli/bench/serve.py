@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from cli.bench.options import JsonFile, Kept, Seed, Source, scans_from, write_json
+from cli.outputs import picture_file
 from cli.sources import clear_errors, show
 from cli.tables import new_table, print_tables
 
@@ -15,7 +16,11 @@ def serve(
     json_file: JsonFile = None,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="PNG file for a plot of latency against load."),
+        typer.Option(
+            metavar="FILE",
+            callback=picture_file,
+            help="PNG file for a plot of latency against load.",
+        ),
     ] = None,
     output: Kept = Path("out/bench"),
     seconds: Annotated[

@@ -8,6 +8,7 @@ import typer
 from cli.bench.options import Drawn, JsonFile, write_json
 from cli.common_options import Model
 from cli.labeled_drives import cached_labeled
+from cli.outputs import output_folder
 from cli.sources import clear_errors
 from cli.tables import new_table, print_tables
 
@@ -51,7 +52,9 @@ def shape_bytes(
     model: Model = None,
     cache: Annotated[
         Path | None,
-        typer.Option(metavar="FOLDER", help="Folder that keeps the simulated drives."),
+        typer.Option(
+            metavar="FOLDER", callback=output_folder, help="Folder that keeps the simulated drives."
+        ),
     ] = None,
     json_file: JsonFile = None,
 ) -> None:

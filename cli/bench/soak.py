@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from cli.bench.options import JsonFile, Kept, Seed, Source, scans_from, write_json
+from cli.outputs import picture_file
 from cli.sources import clear_errors
 
 
@@ -14,7 +15,10 @@ def soak(
     minutes: Annotated[float, typer.Option(min=0.05, help="Duration, minutes.")] = 10.0,
     json_file: JsonFile = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="PNG file for a plot of memory over time.")
+        Path | None,
+        typer.Option(
+            metavar="FILE", callback=picture_file, help="PNG file for a plot of memory over time."
+        ),
     ] = None,
     output: Kept = Path("out/bench"),
     seed: Seed = 7,

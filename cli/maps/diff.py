@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cli.maps.connection import LOCAL, Url, map_from, service
+from cli.outputs import picture_file
 from cli.tables import JsonFlag, print_json
 
 if TYPE_CHECKING:
@@ -27,7 +28,9 @@ def diff(
     ] = False,
     plot: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="PNG file for a top view of --world."),
+        typer.Option(
+            metavar="FILE", callback=picture_file, help="PNG file for a top view of --world."
+        ),
     ] = None,
     as_json: JsonFlag = False,
     url: Url = LOCAL,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cli.maps.connection import LOCAL, Name, Url, service
+from cli.outputs import picture_file
 from cli.tables import JsonFlag, new_table, print_json, print_tables
 
 if TYPE_CHECKING:
@@ -21,7 +22,9 @@ def optimize(
     plot: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="PNG file for a plot of the captures and loops before and after."
+            metavar="FILE",
+            callback=picture_file,
+            help="PNG file for a plot of the captures and loops before and after.",
         ),
     ] = None,
     if_match: Annotated[

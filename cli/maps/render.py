@@ -7,6 +7,7 @@ import typer
 
 from cli.common_options import Classes, Ignore
 from cli.maps.connection import LOCAL, Url, service
+from cli.outputs import output_file
 from cli.sources import clear_errors, parse_town, show
 from placecell.export.targets import ColorBy
 
@@ -35,7 +36,10 @@ def render(
     output: Annotated[
         Path,
         typer.Option(
-            "--output", "-o", help="File to write: a cloud (.ply, .las, .pcd) or a picture (.png)."
+            "--output",
+            "-o",
+            callback=output_file,
+            help="File to write: a cloud (.ply, .las, .pcd) or a picture (.png).",
         ),
     ],
     model: Annotated[

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from cli.maps.connection import LOCAL, Name, Url, service
+from cli.outputs import picture_file
 from cli.tables import JsonFlag, new_table, print_json, print_tables
 
 if TYPE_CHECKING:
@@ -17,7 +18,10 @@ if TYPE_CHECKING:
 def show(
     name: Name,
     plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="PNG file for a top view of the map.")
+        Path | None,
+        typer.Option(
+            metavar="FILE", callback=picture_file, help="PNG file for a top view of the map."
+        ),
     ] = None,
     limit: Annotated[int, typer.Option(min=1, help="Largest number of versions to list.")] = 20,
     as_json: JsonFlag = False,

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from cli.outputs import output_file, picture_file
+
 SCANS = 120
 """Default number of scans of a drive through the small town."""
 
@@ -227,6 +229,7 @@ Picture = Annotated[
     Path | None,
     typer.Option(
         metavar="FILE",
+        callback=picture_file,
         help="PNG file for a drawing of streets, route and odometry.",
         rich_help_panel=LARGE,
     ),
@@ -236,6 +239,7 @@ JsonFile = Annotated[
     typer.Option(
         "--json",
         metavar="FILE",
+        callback=output_file,
         help="JSON file for the lengths, the scans and the duration.",
         rich_help_panel=LARGE,
     ),

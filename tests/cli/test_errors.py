@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import typer
 from placecell_client import Client, encode
@@ -17,6 +18,7 @@ from typer.testing import CliRunner
 
 from cli import app
 from cli.errors import plain
+from cli.tables import write_json
 from service.child_process import running_service
 
 
@@ -231,3 +233,88 @@ def test_B16_wrong_setting_shows_value_and_expectation(
     status, said = run("config")
     assert status == 1
     assert words in said
+
+
+READ = {
+    "--drive",
+    "--key-file",
+    "--keys-file",
+    "--kiss-slam",
+    "--map-drive",
+    "--map-recording",
+    "--models-dir",
+    "--pairs",
+    "--poses",
+    "--python",
+    "--query-recording",
+    "--recording-a",
+    "--recording-b",
+    "--segments",
+}
+"""Options that name what is read."""
+OWN_CHECK = {
+    "--data-dir": "the service checks its folder before it listens",
+    "--file": "a key is added to it at once",
+    "--local": "the agent goes on without it",
+    "--spool": "the mirror checks it before the first copy",
+    "--unix-socket": "the service checks it before it listens",
+}
+"""Options that name what is written, each with the reason why no callback checks them."""
+
+
+def path_options() -> list[tuple[tuple[str, ...], Any]]:
+    """Return all options that name a file or a folder."""
+    return [
+        (path, each)
+        for path, command in LEAVES.items()
+        for each in command.params
+        if each.param_type_name == "option"
+        and "Path" in str(each.type_descriptor.annotation)
+        and each.opts[0] not in READ | OWN_CHECK.keys()
+    ]
+
+
+@pytest.mark.parametrize(
+    ("path", "option"), path_options(), ids=lambda each: " ".join(getattr(each, "opts", each))
+)
+def test_output_that_cannot_be_written_is_refused_before_the_work(
+    path: tuple[str, ...], option: Any, tmp_path: Path
+) -> None:
+    (tmp_path / "file.png").write_text("x")
+    (tmp_path / "folder.png").mkdir()
+    arguments = [
+        "group" if each.name == "method" else "/nowhere/at/all"
+        for each in LEAVES[path].params
+        if each.param_type_name == "argument" and each.required
+    ]
+    wrong = [tmp_path / "file.png" / "below.png", tmp_path / "folder.png"]
+    is_folder = "folder" in option.help.lower().partition(".")[0] and "file" not in option.help[:5]
+    if is_folder:
+        wrong[1] = tmp_path / "file.png"
+    for each in wrong:
+        status, said = run(*path, *arguments, option.opts[0], each)
+        assert status == 2, said
+        assert f"expected a {'folder' if is_folder or 'below' in each.name else 'file'}" in said
+        assert len(said.strip().splitlines()) <= 2
+    assert (tmp_path / "file.png").read_text() == "x"
+
+
+def test_picture_of_an_unknown_format_is_refused_before_the_work(tmp_path: Path) -> None:
+    status, said = run("inspect", "/nowhere", "--plot", tmp_path / "scan.xyz")
+    assert status == 2
+    assert "expected a name that ends in .png, .pdf or .svg" in said
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
+def test_output_in_a_folder_without_permission_is_refused(tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    status, said = run("inspect", "/nowhere", "--json", tmp_path / "found.json")
+    assert status == 2
+    assert "Check the permissions of the folder" in said
+
+
+def test_figures_that_are_not_finite_are_null_in_json(tmp_path: Path) -> None:
+    content = {"rows": [{"p50": float("nan"), "most": np.array([1.0, np.inf])}], "n": np.int64(3)}
+    write_json(content, tmp_path / "new" / "figures.json")
+    text = (tmp_path / "new" / "figures.json").read_text()
+    assert json.loads(text) == {"rows": [{"p50": None, "most": [1.0, None]}], "n": 3}
