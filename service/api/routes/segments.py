@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 from placecell_client import encode_delta
+from placecell_client.maps.compact_map import TIME_LIMIT
 from placecell_client.maps.delta_file import MEDIA_TYPE
 
 from service.api.admission.admission import client_of
@@ -114,6 +115,8 @@ async def prune_segments(
         float,
         Query(
             allow_inf_nan=False,
+            ge=-TIME_LIMIT,
+            le=TIME_LIMIT,
             description="Time in seconds of the frames' clock. Segments that were last seen "
             "(`seen`, or the time of their frame) before it are removed.",
         ),
