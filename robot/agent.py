@@ -387,6 +387,7 @@ class RobotAgent:
             session=f"{self.settings.robot}-{self.settings.session}-{self._perception.part}"[-64:],
             classes=keyframe.classes,
             ignore=self.settings.ignore,
+            heights=keyframe.heights,
         )
 
     def _take_answer(self) -> None:

@@ -52,6 +52,7 @@ class ServiceLink:
             request.centroids,
             {},
             classes=request.classes,
+            heights=request.heights,
         )
         ignore = request.ignore or None
         try:

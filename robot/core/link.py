@@ -57,6 +57,8 @@ class FixRequest:
         session: id of the odometry frame; requests of one session support each other.
         classes: class of each segment, uint8 (n,); None if the model has no semantic head.
         ignore: classes of segments to leave out, in the map and in the request.
+        heights: vertical sides of the segments' boxes, meters, float64 (n,); None if they are not
+            known.
     """
 
     time: float
@@ -70,6 +72,7 @@ class FixRequest:
     session: str
     classes: UInt8 | None = None
     ignore: tuple[str, ...] = ()
+    heights: Float64 | None = None
 
     @property
     def hints(self) -> Hints:

@@ -164,7 +164,13 @@ class LocalEngine:
         if not name:
             return FixAnswer(request, "local", None, None, 0.0, "no map was pulled")
         seen = Descriptors(
-            request.model_id, request.codes, None, request.centroids, {}, classes=request.classes
+            request.model_id,
+            request.codes,
+            None,
+            request.centroids,
+            {},
+            classes=request.classes,
+            heights=request.heights,
         )
         wanted = ClassFilter.of(None, request.ignore)
         try:

@@ -44,12 +44,14 @@ class Keyframe:
         codes: descriptors of those that have one, int8 (n, code bytes).
         centroids: their centroids, float64 (n, 3), meters.
         classes: their classes, uint8 (n,); None if the model has no semantic head.
+        heights: vertical sides of their boxes, meters, float64 (n,).
     """
 
     live: LiveSegments
     codes: Int8
     centroids: Float64
     classes: UInt8 | None = None
+    heights: Float64 | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -194,7 +196,9 @@ class Perception:
         live = every.take(np.flatnonzero(~moves))
         self.segmentation.take_final_views()  # Views of all sides are stored, not only the best.
         found = describe(clouds_of(live), live.segments.sensors)
-        keyframe = Keyframe(live, found.codes, found.centroids, found.classes)
+        low, high = live.segments.bounds()
+        heights = (high - low)[found.usable, 2].astype(np.float64)
+        keyframe = Keyframe(live, found.codes, found.centroids, found.classes, heights)
         if not self.keyframe_rule.is_complete:
             return keyframe, None  # The first scans show too little of a segment to store it.
         seen = SeenSegments.of(found, live, self.model_id, self.preprocessing)

@@ -1,6 +1,7 @@
 """Parsing of requests for recognition: from their schemas to scans and descriptors."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Annotated, Any, Protocol
 
 import numpy as np
@@ -107,9 +108,11 @@ def read_query(
         raise invalid_value("/maps", detail)
     if request.codes is not None:
         centroids = None if request.centroids is None else np.array(request.centroids, np.float64)
-        seen: Descriptors | Scan = _read_codes(
+        described = _read_codes(
             state, request.codes, request.model_id, centroids, _read_classes(request.query_classes)
         )
+        heights = request.heights if isinstance(request, LocalizeQuery) else None
+        seen: Descriptors | Scan = _with_heights(described, heights)
     else:
         assert request.segments is not None  # as the schema has checked
         seen = read_scan(request.segments, request.origin)
@@ -156,6 +159,20 @@ def _read_codes(
         detail = f"{len(classes)} classes for {len(codes)} codes; expected one for each code."
         raise invalid_value("/query_classes", detail)
     return Descriptors(model.id, codes, None, centroids, {}, classes=classes)
+
+
+def _with_heights(seen: Descriptors, given: Sequence[float | None] | None) -> Descriptors:
+    """Return the request's own descriptors with the heights of their boxes.
+
+    Raises:
+        Problem: 422 if there is not one height for each code.
+    """
+    if given is None:
+        return seen
+    if len(given) != len(seen):
+        detail = f"{len(given)} heights for {len(seen)} codes; expected one for each code."
+        raise invalid_value("/heights", detail)
+    return replace(seen, heights=np.array(given, np.float64))
 
 
 def _code_rows(given: Int8 | list[list[int]], code_bytes: int) -> Int8:

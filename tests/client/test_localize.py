@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from typing import Any
 
 import httpx
@@ -207,3 +208,37 @@ def test_what_helps_is_read_and_older_services_have_none() -> None:
     assert (older.advice, older.meters_to_drive, older.places, older.places_apart) == (
         "", None, (), None,
     )  # fmt: skip
+
+
+def test_heights_are_sent_with_codes_and_left_out_for_an_older_service() -> None:
+    asked: list[Any] = []
+    sessions: list[str] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append(json.loads(request.content).get("heights"))
+        sessions.append(request.headers["placecell-session"])
+        if asked[-1] is not None and len(asked) == 2:
+            detail = "/heights: Extra inputs are not permitted."
+            return httpx.Response(422, json={"title": "Invalid request", "detail": detail})
+        return httpx.Response(200, json=LOCALIZED | {"localizations": [PLACE]})
+
+    boxed = replace(DESCRIBED, heights=np.array([np.nan, 2.5, np.nan]))
+    with client_of(answer, encoding="json") as client:
+        client.localize(boxed, session="ann-7")
+        client.localize(boxed, session="ann-7")
+    assert asked == [[2.5, None], [2.5, None], None]
+    assert len(set(sessions)) == 1
+
+
+def test_description_has_the_heights_of_its_boxes() -> None:
+    def answer(_: httpx.Request) -> httpx.Response:
+        told = {"codes": [1, 2], "descriptor": [0.1, 0.2], "centroid": [0, 0, 0]}
+        bad = {"error": {"type": "urn:x", "title": "Too few points", "detail": "none"}}
+        content = {"model_id": "m", "dimension": 2, "descriptors": [told, told, bad]}
+        return httpx.Response(200, json=content)
+
+    broken = CLOUD.copy()
+    broken[3] = np.nan
+    with client_of(answer, encoding="json") as client:
+        found = client.describe([CLOUD, broken, np.zeros((0, 3))], np.zeros(3))
+    np.testing.assert_array_equal(found.heights, [9.0, 6.0, np.nan])

@@ -66,14 +66,17 @@ def test_request_states_the_classes_to_ignore_and_those_of_its_segments() -> Non
         sent.append(request.content)
         return httpx.Response(503)
 
-    asked = replace(REQUEST, classes=np.array([121], np.uint8), ignore=("movable",))
+    asked = replace(
+        REQUEST, classes=np.array([121], np.uint8), ignore=("movable",), heights=np.array([2.5])
+    )
     for each in (asked, REQUEST):
         with pytest.raises(LinkError):
             link_of(handler).localize(each)
     body = msgpack.unpackb(sent[0])
     assert body["ignore"] == ["movable"]
     assert body["query_classes"] == b"y"
-    assert "ignore" not in msgpack.unpackb(sent[1])
+    assert body["heights"] == [2.5]
+    assert {"ignore", "heights"}.isdisjoint(msgpack.unpackb(sent[1]))
     # From where the segments are seen, in the frame of the centroids.
     position = body["hints"]["sensor"]["position"]
     assert position == pytest.approx(REQUEST.odom_pose[:3, 3].tolist())

@@ -58,6 +58,17 @@ class Clouds:
         return cls(tuple(clouds), _sensors(sensors, len(clouds)), dropped)
 
 
+def heights_of(segments: Sequence[ArrayLike]) -> NDArray[np.float64]:
+    """Return the vertical sides of the segments' boxes, meters; NaN without finite points."""
+    heights = np.full(len(segments), np.nan)
+    for index, points in enumerate(segments):
+        up = points_of(points, f"segment {index}")[:, 2]
+        up = up[np.isfinite(up)]
+        if len(up):
+            heights[index] = np.ptp(up)
+    return heights
+
+
 def points_of(points: ArrayLike, name: str) -> NDArray[Any]:
     """Convert points to (n, 3), float32 if they are float32 already, otherwise float64.
 

@@ -2,6 +2,7 @@
 
 import gzip
 import hashlib
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from os import PathLike
@@ -23,7 +24,7 @@ from placecell_client.http.encoding import (
     dumps,
     segments_of,
 )
-from placecell_client.http.point_clouds import rows_of
+from placecell_client.http.point_clouds import heights_of, rows_of
 from placecell_client.http.response import HttpResponse
 from placecell_client.maps import delta_file, map_file
 from placecell_client.maps.delta_file import Delta, encode_delta
@@ -186,9 +187,11 @@ class Calls:
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Call[Description]:
         """Build `POST /describe`."""
         body, dropped = segments_of(segments, sensors, self.encoding)
-        count = len(segments)
+        count, heights = len(segments), heights_of(segments)
         return self._post(
-            "/describe", body, lambda answer: parsing.description(answer, count, dropped)
+            "/describe",
+            body,
+            lambda answer: replace(parsing.description(answer, count, dropped), heights=heights),
         )
 
     def match(
@@ -258,9 +261,10 @@ class Calls:
             rows = _usable(description)
             body |= self._codes(description, rows) | self._centroids(description, rows)
             body |= self._classes(description, rows) if wanted else {}
-            call = self._post(
+            call = self._with_older(
                 "/localize",
                 body,
+                self._heights(description, rows),
                 lambda answer: parsing.localizations_of(answer, description, rows),
             )
             return _of_session(call, session)
@@ -664,6 +668,13 @@ class Calls:
         """Return the part of a body that holds the centroids of codes."""
         return {"centroids": centroids_of(description.centroids[rows], self.encoding)}
 
+    def _heights(self, description: Description, rows: list[int]) -> dict[str, Any]:
+        """Return the part of a body that holds the heights of codes, if they are known."""
+        if description.heights is None:
+            return {}
+        heights = description.heights[rows].tolist()
+        return {"heights": [each if math.isfinite(each) else None for each in heights]}
+
     def _post(self, path: str, body: dict[str, Any], read: Callable[[HttpResponse], T]) -> Call[T]:
         media_type = MEDIA_TYPES[self.encoding]
         headers = {"Content-Type": media_type, "Accept": media_type}
@@ -688,7 +699,12 @@ def _of_session(call: Call[T], session: str | None) -> Call[T]:
     if session is None:
         return call
     digest = hashlib.sha256(session.encode()).hexdigest()[:16]
-    return replace(call, headers=call.headers | {SESSION_HEADER: digest})
+    older = call.older
+    return replace(
+        call,
+        headers=call.headers | {SESSION_HEADER: digest},
+        older=None if older is None else lambda: _of_session(older(), session),
+    )
 
 
 def _search(

@@ -37,6 +37,8 @@ class Description:
         dropped_points: Number of points that were not finite and were left out.
         classes: Class of each segment and its probability, as `placecell_client.classes` reads
             them, uint8 (n,); 0: unknown. None if the model has no semantic head.
+        heights: Vertical sides of the segments' boxes, meters, float64 (n,); NaN: unknown. None if
+            none is known. `Client.localize` sends them, for the height of the pose.
     """
 
     model_id: str
@@ -46,6 +48,7 @@ class Description:
     errors: dict[int, ItemError]
     dropped_points: int = 0
     classes: NDArray[np.uint8] | None = None
+    heights: NDArray[np.float64] | None = None
 
     def __repr__(self) -> str:
         return (

@@ -2,6 +2,7 @@
 
 from typing import Annotated, Generic, Literal, Self
 
+from placecell_client.maps.compact_map import COORDINATE_LIMIT
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from placecell.localization.acceptance import LARGEST_RISK
@@ -24,6 +25,9 @@ from service.api.schemas.recognition import (
     SkippedOut,
 )
 
+Height = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0, le=COORDINATE_LIMIT)]
+Heights = Annotated[list[Height | None], Field(fail_fast=True, min_length=1)]
+
 SessionId = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9._-]{1,64}$")]
 
 
@@ -35,6 +39,12 @@ class LocalizeQuery(
     centroids: CentroidsT | None = Field(
         None,
         description="Centroid of each code's segment, meters, in one frame of the robot with z up.",
+    )
+    heights: Heights | None = Field(
+        None,
+        description="Height of each code's segment, the vertical side of its box, meters; null "
+        "where it is unknown. With heights, and `extents` in the map, a pose has the right height "
+        "even if the map's sensor sees objects up to another height.",
     )
     k: int = Field(25, ge=1, strict=True, description="Largest number of candidates per segment.")
     motion: Literal["yaw", "se3"] = Field(
@@ -73,6 +83,8 @@ class LocalizeQuery(
     def _centroids_of_codes(self) -> Self:
         if (self.codes is None) != (self.centroids is None):
             raise ValueError("the request needs centroids with codes, and none with segments")
+        if self.heights is not None and self.codes is None:
+            raise ValueError("the request has segments, so it needs no heights")
         return self
 
 

@@ -495,3 +495,76 @@ def test_concurrent_requests_do_not_mix_their_sessions(stocked: Any, body: Any) 
             expected["localizations"][0]["pose"]["translation"],
             atol=1e-6,
         )
+
+
+HALF, WHOLE = 2.0, 4.0
+"""Heights up to which the sensors of the map and of the robot see all objects, meters."""
+
+
+@pytest.fixture
+def halved(service: Any, content: CompactMap, manifest: Manifest) -> dict[str, Any]:
+    """A map whose sensor saw half of each object, and a request of one that sees them whole."""
+    centroids = content.centroids * (1, 1, 0) + (0, 0, HALF / 2)
+    extents = np.full((len(content), 3), 10 * HALF, np.uint8)
+    half = replace(content, centroids=centroids, extents=extents)
+    assert service.put("/maps/street", content=encode(half)).status_code == 201
+    whole = replace(content, centroids=centroids + (0, 0, (WHOLE - HALF) / 2))
+    return by_codes(manifest, *seen_in(whole))
+
+
+def height_of(service: Any, body: dict[str, Any]) -> float:
+    """Return how much higher than it is the robot is localized, meters."""
+    answer = service.post("/localize", json=body)
+    assert answer.status_code == 200, answer.text
+    (told,) = answer.json()["localizations"]
+    assert told["localized"], told
+    return float(told["pose"]["translation"][2] - TRUTH.translation[2])
+
+
+def test_heights_of_codes_put_the_pose_on_the_ground(service: Any, halved: dict[str, Any]) -> None:
+    count = len(halved["codes"])
+    assert height_of(service, halved) == pytest.approx(-1.0, abs=0.02)
+    assert height_of(service, halved | {"heights": [WHOLE] * count}) == pytest.approx(0, abs=0.1)
+    some = [None, *[WHOLE] * (count - 1)]
+    assert height_of(service, halved | {"heights": some}) == pytest.approx(0, abs=0.1)
+    none = halved | {"heights": [None] * count}
+    assert height_of(service, none) == pytest.approx(-1.0, abs=0.02)
+
+
+def test_points_put_the_pose_on_the_ground(service: Any, halved: dict[str, Any]) -> None:
+    """Segments have boxes: the same engine, with the heights that a description has."""
+    engine = service.app.state.placecell.engine
+    points = [cloud(seed) for seed in range(3)]
+    described = engine.describe([*points, points[0][:2]], np.array([0.0, 0.0, 1.0]))
+    sides = [np.ptp(each[:, 2]) for each in points]
+    np.testing.assert_allclose(described.heights[:3], sides, atol=1e-5)
+    assert np.isnan(described.heights[3])  # too few points
+    found = replace(
+        described,
+        codes=np.array(halved["codes"], np.int8),
+        centroids=np.array(halved["centroids"]),
+        heights=np.full(len(halved["codes"]), WHOLE),
+        errors={},
+    )
+    pose = engine.localize(found, maps=["street"])[0].localization.pose
+    assert pose.translation[2] == pytest.approx(TRUTH.translation[2], abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("heights", "named"),
+    [
+        ([1.0], "1 heights for 40 codes"),
+        ([-1.0] * 40, "/heights"),
+        ([float("1e9")] * 40, "/heights"),
+        (["high"] * 40, "/heights"),
+        ([], "/heights"),
+    ],
+)
+def test_wrong_heights_are_refused(stocked: Any, body: Any, heights: Any, named: str) -> None:
+    answer = stocked.post("/localize", json=body | {"heights": heights})
+    assert_problem(answer, 422, "invalid-request", named)
+
+
+def test_segments_with_heights_are_refused(service: Any) -> None:
+    body = request_of([cloud(0)]) | {"heights": [1.0]}
+    assert_problem(service.post("/localize", json=body), 422, "invalid-request", "no heights")
