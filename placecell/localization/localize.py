@@ -12,7 +12,6 @@ from placecell.localization.candidates import Candidates
 from placecell.localization.confidence import Confidence, SegmentNeeds, features_of, shipped
 from placecell.localization.correspondences import Correspondences, correspond
 from placecell.localization.evidence import Evidence
-from placecell.localization.ground_level import at_ground_level
 from placecell.localization.guided_matching import (
     CandidateSegments,
     MapBoxes,
@@ -23,6 +22,7 @@ from placecell.localization.hypothesis import Hypothesis, find_hypotheses, seen_
 from placecell.localization.overlap import SegmentsInMap, explained_shares
 from placecell.localization.parameters import LocalizationParameters
 from placecell.localization.pose import Pose
+from placecell.localization.pose_height import at_height_of_boxes
 from placecell.localization.voting import most_voted
 
 Reason = Literal["too-few-segments", "inconsistent", "ambiguous"]
@@ -127,14 +127,14 @@ class PlaceHypotheses:
     ) -> Localization:
         """Return a localization with the pose that the robot's own view of the segments gives.
 
-        Its height follows from the ground as well (`ground_level`).
+        Its height follows from the boxes as well (`pose_height`).
 
         Probability, reason and the hypotheses for later requests stay: they are about the place.
         """
         if told.best is None or self.correspondences is None:
             return told
         best = seen_by_robot(told.best, self.correspondences, parameters)
-        return replace(told, best=at_ground_level(best, candidates, there, parameters))
+        return replace(told, best=at_height_of_boxes(best, candidates, there, parameters))
 
 
 def find_places(
