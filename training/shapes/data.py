@@ -36,6 +36,7 @@ class ShapeData:
         grids: occupancy of the oriented grid, eight voxels a byte, uint8 (n, bytes).
         centers: vector from the centroid to the grid's center, float32 (n, 3), meters, with the
             sensor on the positive x axis.
+        sizes: edge lengths of the oriented box, float32 (n, 3), meters.
         groups: group of each segment, int64 (n,); sources share none.
     """
 
@@ -46,6 +47,7 @@ class ShapeData:
     extents: UInt8
     grids: UInt8
     centers: Float32
+    sizes: Float32
     groups: Int64
 
     def __len__(self) -> int:
@@ -75,6 +77,10 @@ class ShapeData:
     def occupied(self, rows: Int64, voxels: int) -> UInt8:
         """Return the grids of some segments, uint8 (rows, voxels), 0 or 1."""
         return np.unpackbits(self.grids[rows], axis=1, count=voxels)
+
+    def reach(self, voxel: float) -> Int64:
+        """Return the number of voxels from the grid's center to the sides of the box, (n, 3)."""
+        return np.ceil(self.sizes / (2 * voxel)).astype(np.int64)
 
 
 def shape_data(
@@ -140,6 +146,7 @@ def extracted(
         extents=np.stack(boxes, axis=1),
         grids=packed_grids(segments, extractor),
         centers=(low + high) * np.float32(0.5),
+        sizes=high - low,
         groups=groups,
     )
 

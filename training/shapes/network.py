@@ -1,8 +1,9 @@
 """Network of the shape decoder: logits of occupancy from what a map holds of a segment.
 
 A small perceptron reads the segment's own part of the descriptor, where the sensor was, the box and
-the number of points. Its features weight a basis of grids, and profiles along the axes. The box is
-known along the map's axes; voxels outside of it are excluded by its turned sides.
+the number of points. Its features weight a basis of grids and profiles along the axes, and place two
+surfaces, one across the rows of voxels along x, one across those along y. The box is known along the
+map's axes; voxels outside of it are excluded by its turned sides.
 """
 
 import math
@@ -18,8 +19,14 @@ from placecell.core.types import Float32
 HIDDEN = 512
 """Number of features of the perceptron's layers."""
 
-BASIS = 112
-"""Number of grids in the basis; with 8-bit weights they take 2.9 MB."""
+LAYERS = 3
+"""Number of layers of the perceptron."""
+
+BASIS = 36
+"""Number of grids in the basis; with 8-bit weights they take 0.9 MB."""
+
+DEPTH, FAR = 4.0, 8.0
+"""Unit of a surface's place in a row, and largest distance from it that counts, voxels."""
 
 OUTSIDE = 12.0, 0.4
 """Logit that is subtracted for each meter outside of the box, and largest distance, meters."""
@@ -84,6 +91,48 @@ class ExtraEncoder(nn.Module):
         return smooth + (rounded - smooth).detach()
 
 
+class Surface(nn.Module):
+    """Surface across the rows of voxels along one axis: part of the logits, largest on it.
+
+    In each row, the surface has a place. So a wall at any angle and distance is one map of places,
+    where a basis of grids needs a grid for each of them.
+    """
+
+    def __init__(self, grid: tuple[int, int, int], axis: int) -> None:
+        """Create the surface.
+
+        Args:
+            grid: number of voxels along x, y, z.
+            axis: axis of the rows, 0 (x) or 1 (y).
+        """
+        super().__init__()
+        self.grid, self.axis = grid, axis
+        rows = math.prod(grid) // grid[axis]
+        self.place, self.sharpness, self.height = (nn.Linear(HIDDEN, rows) for _ in range(3))
+        for layer in (self.place, self.sharpness, self.height):
+            nn.init.normal_(layer.weight, std=0.02)
+            nn.init.zeros_(layer.bias)
+
+    def forward(self, features: Tensor, voxels: Tensor | None) -> Tensor:
+        """Return its part of the logits of some voxels, (n, voxels), or of all, (n, x, y, z)."""
+        place, height = self.place(features).float() * DEPTH, self.height(features).float()
+        sharpness = functional.softplus(self.sharpness(features).float())
+        _, y, z = self.grid
+        cells = torch.arange(self.grid[self.axis]) - (self.grid[self.axis] - 1) / 2
+        if voxels is None:
+            shape = [-1, *self.grid]
+            shape[1 + self.axis] = 1
+            along = cells.reshape(-1, 1, 1) if self.axis == 0 else cells.reshape(-1, 1)
+            place, height, sharpness = (each.reshape(shape) for each in (place, height, sharpness))
+        else:
+            column, row, layer = voxels // (y * z), voxels // z % y, voxels % z
+            across, along = (row, cells[column]) if self.axis == 0 else (column, cells[row])
+            place, height, sharpness = (
+                each[:, across * z + layer] for each in (place, height, sharpness)
+            )
+        return height - sharpness * (along - place).abs().clamp(max=FAR)
+
+
 class ShapeNetwork(nn.Module):
     """Network of the shape decoder."""
 
@@ -109,7 +158,7 @@ class ShapeNetwork(nn.Module):
         self.grid, self.voxel, self.extra = grid, voxel, extra
         self.register_buffer("own", torch.from_numpy(own))
         further = 0 if extra is None else extra.values
-        widths = [own.shape[1] + FEATURES + further, HIDDEN, HIDDEN]
+        widths = [own.shape[1] + FEATURES + further, *[HIDDEN] * LAYERS]
         layers: list[nn.Module] = []
         for before, after in pairwise(widths):
             layers += [nn.Linear(before, after), nn.ReLU()]
@@ -123,6 +172,7 @@ class ShapeNetwork(nn.Module):
         nn.init.normal_(self.basis.weight, std=0.02)
         nn.init.constant_(self.basis.bias, EMPTY)
         self.profiles = nn.ModuleList(nn.Linear(HIDDEN, size) for size in grid)
+        self.surfaces = nn.ModuleList(Surface(grid, axis) for axis in (0, 1))
 
     def forward(
         self, descriptor: Tensor, offset: Tensor, bearing: Tensor, extents: Tensor, points: Tensor
@@ -181,6 +231,8 @@ class ShapeNetwork(nn.Module):
             logits = logits.reshape(-1, *self.grid)
         for axis, profile in enumerate(self.profiles):
             logits = logits + self._along(axis, profile(features), voxels)
+        surfaces = (surface(features, voxels) for surface in self.surfaces)
+        logits = logits.float() + torch.logaddexp(*surfaces)
         places = [
             self._along(axis, ((torch.arange(size) - (size - 1) / 2) * self.voxel)[None], voxels)
             for axis, size in enumerate(self.grid)
@@ -190,7 +242,7 @@ class ShapeNetwork(nn.Module):
         shifts = [each.reshape(-1, *ones) for each in self.box(features).T]
         beyond = outside(places, sides, shifts, self.voxel / 2)
         rate, most = OUTSIDE
-        logits = logits.float() - rate * beyond.clamp(max=most) * known.reshape(-1, *ones)
+        logits = logits - rate * beyond.clamp(max=most) * known.reshape(-1, *ones)
         return logits, self.center(features).float()
 
     def _along(self, axis: int, values: Tensor, voxels: Tensor | None) -> Tensor:
@@ -254,7 +306,10 @@ def outside(
 
 
 def shape_loss(
-    logits: Tensor, occupied: Tensor, entropy_weight: float = ENTROPY
+    logits: Tensor,
+    occupied: Tensor,
+    entropy_weight: float = ENTROPY,
+    weights: Tensor | None = None,
 ) -> tuple[Tensor, Tensor]:
     """Return the loss of logits, and the mean soft intersection over union.
 
@@ -265,12 +320,15 @@ def shape_loss(
         logits: float32 (n, voxels).
         occupied: 0 or 1, float32 (n, voxels).
         entropy_weight: weight of the cross entropy.
+        weights: weight of each voxel, float32 (voxels,); None: one.
     """
+    if weights is None:
+        weights = torch.ones(logits.shape[1])
     likely = torch.sigmoid(logits)
-    common = (likely * occupied).sum(dim=1)
-    union = likely.sum(dim=1) + occupied.sum(dim=1) - common
+    common = (likely * occupied) @ weights
+    union = likely @ weights + occupied @ weights - common
     overlap = (common / (union + 1)).mean()
     entropy = functional.binary_cross_entropy_with_logits(
-        logits, occupied, pos_weight=torch.tensor(OCCUPIED)
+        logits, occupied, pos_weight=torch.tensor(OCCUPIED), reduction="none"
     )
-    return 1 - overlap + entropy_weight * entropy, overlap
+    return 1 - overlap + entropy_weight * (entropy @ weights).mean() / weights.sum(), overlap
