@@ -14,7 +14,7 @@ def train_shapes(
     model: Annotated[str, typer.Argument(help="Model whose codes are decoded: name or folder.")],
     drives: TrainingDrives,
     seed: Annotated[int, typer.Option(help="Random seed of the training.")] = 0,
-    epochs: Annotated[int, typer.Option(min=1, help="Number of passes over the training set.")] = 6,
+    epochs: Annotated[int, typer.Option(min=1, help="Number of passes over the training set.")] = 3,
     runs: Runs = Path("runs"),
     resume: Resume = False,
     license_name: License = "not stated",

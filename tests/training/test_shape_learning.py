@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-
-torch = pytest.importorskip("torch")
+import torch
 
 from training.shapes.learning import ShapeRecipe, alike, drawn_voxels
 from training.shapes.network import ShapeNetwork, shape_loss

@@ -80,7 +80,7 @@ class ShapeData:
 
     def reach(self, voxel: float) -> Int64:
         """Return the number of voxels from the grid's center to the sides of the box, (n, 3)."""
-        return np.ceil(self.sizes / (2 * voxel)).astype(np.int64)
+        return np.asarray(np.ceil(self.sizes / (2 * voxel)), np.int64)
 
 
 def shape_data(

@@ -43,7 +43,10 @@ class AdamW:
     ) -> tuple[torch.optim.AdamW, torch.optim.lr_scheduler.OneCycleLR]:
         """Return optimizer and schedule for a number of epochs of `steps` steps each."""
         optimizer = torch.optim.AdamW(
-            model.parameters(), lr=self.learning_rate, weight_decay=self.weight_decay
+            model.parameters(),
+            lr=self.learning_rate,
+            weight_decay=self.weight_decay,
+            fused=True,
         )
         schedule = torch.optim.lr_scheduler.OneCycleLR(
             optimizer, self.learning_rate, epochs=epochs, steps_per_epoch=steps, pct_start=0.15
@@ -55,7 +58,7 @@ class AdamW:
 class ShapeRecipe:
     """Recipe of the shape decoder's training; the defaults are those of the shipped decoders."""
 
-    epochs: int = 6
+    epochs: int = 3
     descent: AdamW = AdamW()
     inside: int = 3000
     """Largest number of voxels of each step in the boxes of its segments, drawn at random."""

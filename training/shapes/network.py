@@ -1,9 +1,9 @@
 """Network of the shape decoder: logits of occupancy from what a map holds of a segment.
 
 A small perceptron reads the segment's own part of the descriptor, where the sensor was, the box and
-the number of points. Its features weight a basis of grids and profiles along the axes, and place two
-surfaces, one across the rows of voxels along x, one across those along y. The box is known along the
-map's axes; voxels outside of it are excluded by its turned sides.
+the number of points. Its features weight a basis of grids and profiles along the axes. They also
+place two surfaces: one across the rows of voxels along x, one across those along y. The box is
+known along the map's axes; voxels outside of it are excluded by its turned sides.
 """
 
 import math
@@ -128,7 +128,7 @@ class Surface(nn.Module):
             column, row, layer = voxels // (y * z), voxels // z % y, voxels % z
             across, along = (row, cells[column]) if self.axis == 0 else (column, cells[row])
             place, height, sharpness = (
-                each[:, across * z + layer] for each in (place, height, sharpness)
+                each.index_select(1, across * z + layer) for each in (place, height, sharpness)
             )
         return height - sharpness * (along - place).abs().clamp(max=FAR)
 
@@ -225,7 +225,7 @@ class ShapeNetwork(nn.Module):
         weight: Tensor = self.basis.weight
         bias: Tensor = self.basis.bias
         if voxels is not None:
-            weight, bias = weight[voxels], bias[voxels]
+            weight, bias = weight.index_select(0, voxels), bias[voxels]
         logits = functional.linear(self.weights(features), weight, bias)
         if voxels is None:
             logits = logits.reshape(-1, *self.grid)

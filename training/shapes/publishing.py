@@ -36,8 +36,8 @@ SECTION = (
     + """
 
 `shape.onnx` ({size:.1f} MB) decodes the occupancy grid of a segment from its stored code. It
-learned from {segments:,} segments of the drives above in {minutes:.0f} minutes of processor time.
-The license is the same.
+learned from {segments:,} segments of the drives below in {minutes:.0f} minutes of processor time.
+The license is that of the model.
 {held_out:,} segments of groups that it did not see: intersection over union {iou:.3f}
 (docs/results/segments.md has other drives and the baseline).
 
