@@ -254,6 +254,7 @@ class RobotAgent:
             self._update()
             self._localizer.close()
             if self._courier is not None:
+                self._step_courier(is_last=True)
                 self._courier.close()
             self._outputs.close()
             self._summary = self._summarize()
@@ -462,13 +463,14 @@ class RobotAgent:
         chosen = self._spool.map_of(self.settings.session, self._perception.part)
         return chosen == self.settings.searched_map
 
-    def _step_courier(self) -> None:
+    def _step_courier(self, is_last: bool = False) -> None:
         if self._courier is None:
             return
+        step = self._courier.finish if is_last else self._courier.step
         found = self.map_to_odom
         if found is not None:
             found = replace(found, transform=found.pose(self._odom_pose))
-        report = self._courier.step(self.status, found)
+        report = step(self.status, found)
         self._counts["uploads"] += report.uploads
         self.messages += report.messages
         if report.map_replaced and self.settings.localize:

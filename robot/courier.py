@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from placecell_client import MapCopy
@@ -18,6 +18,8 @@ from robot.localization.pulled_map import load_copy, save_copy
 from robot.mapping.spool import Spool
 from robot.mapping.upload import UploadResult, send
 
+LAST_SECONDS = 1.0
+"""Longest time to wait for a call when the agent ends, seconds."""
 REPORT_SECONDS = 5.0
 """Time between two reports of the robot's pose, seconds."""
 BATCH = 20
@@ -135,6 +137,22 @@ class Courier:
             self._handle(done, report)
         if not self._worker.is_busy and self._backoff.is_over:
             self._start(status, pose)
+        return report
+
+    def finish(self, status: AgentStatus, pose: MapToOdom | None) -> CourierReport:
+        """Take the result of the running job, and report the last state of a robot that ends.
+
+        It waits a second at most for each, and does not report while the service is away.
+        """
+        report = CourierReport()
+        if self._worker.wait(LAST_SECONDS) and (done := self._worker.take()) is not None:
+            self._handle(done, report)
+        takes_reports = self._next_report < float("inf") and self._backoff.is_over
+        if takes_reports and not self._worker.is_busy and not self._monitor.is_offline:
+            told = "; ".join(filter(None, (status.reason, "the agent has ended")))
+            last = replace(status, reason=told)
+            self._worker.submit(lambda: self._report(last, pose))
+            self._worker.wait(LAST_SECONDS)
         return report
 
     def wait(self, seconds: float) -> bool:

@@ -14,6 +14,7 @@ from placecell.core.types import Float64
 from robot.agent import RobotAgent
 from robot.core.link import LinkError, RefusedError
 from robot.core.settings import AgentSettings
+from robot.core.status import AgentState
 from robot.core.worker import InlineWorker
 from robot.localization.pulled_map import save_copy
 from robot.outputs.output import NoOutput
@@ -386,6 +387,32 @@ class PickyEngine(FakeEngine):
     def set_map(self, content: CompactMap, etag: str) -> None:
         self.refused += 1
         raise ValueError("The map has another model.")
+
+
+def test_robot_that_ends_reports_its_last_state(street: Street) -> None:
+    link = FakeLink()
+    link.transform = OFFSET
+    agent = new_agent(settings(), link)
+    drive(agent, street, steps(0, 30))
+    begun = len(link.reports)
+    agent.close()
+    assert len(link.reports) == begun + 1
+    assert (link.reports[-1].state, link.reports[-1].scans) == (AgentState.TRACKING, 30)
+    assert link.reports[-1].reason.endswith("; the agent has ended")
+
+
+@pytest.mark.parametrize(
+    "failure", [LinkError("away"), RefusedError("Invalid robot name", 422, "invalid-name")]
+)
+def test_robot_that_ends_without_a_link_ends_all_the_same(
+    street: Street, failure: Exception
+) -> None:
+    link = FakeLink()
+    link.failure = failure
+    agent = new_agent(settings(), link)
+    drive(agent, street, steps(0, 5))
+    agent.close()
+    assert link.reports == []
 
 
 def test_last_pose_is_confirmed_by_one_fix_after_a_restart(street: Street, tmp_path: Path) -> None:
