@@ -420,7 +420,8 @@ def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Pat
     """Check the units of poses and times; return remarks on odd but possible values.
 
     Raises:
-        DriveError: times are no seconds, or the sensor would be faster than anything that drives.
+        DriveError: times are no seconds, most of them are equal, or the sensor would be faster than
+            anything that drives.
     """
     if len(poses) < 2:
         return []
@@ -432,11 +433,17 @@ def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Pat
         units = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3}
         unit = next((one for one, size in units.items() if wait * size >= 0.005), "ms")
         if np.abs(times).max() > 1e11 and wait < 1e4:
-            unit = "ms"
+            unit = next((one for one, size in LARGEST_TIMES if np.abs(times).max() > size), "ms")
         name = {"ns": "nanoseconds", "us": "microseconds", "ms": "milliseconds"}[unit]
         raise DriveError(
             f"{time_file}: {wait:,.6g} between two scans (median), so the times are likely {name}, "
             f"not seconds. State --time-unit {unit}, or convert the file to seconds"
+        )
+    if wait == 0:
+        raise DriveError(
+            f"{time_file}: {np.count_nonzero(waits == 0) + 1} of {len(times)} scans have the time "
+            f"of another one ({times[int((waits == 0).argmax())]:.6g}). Each scan needs its own "
+            "time in seconds: correct the times, or the messages that the recorder repeated"
         )
     remarks = []
     moving = steps > 0.02
@@ -459,6 +466,9 @@ def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Pat
         )
     return remarks
 
+
+LARGEST_TIMES = (("ns", 1e17), ("us", 1e14))
+"""Units whose Unix times are above a value, when the times between scans do not tell."""
 
 FASTEST = 400.0
 """Highest plausible speed, m/s; in millimeters a walk of 1 m/s gives 1,000."""

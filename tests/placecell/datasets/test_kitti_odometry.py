@@ -220,3 +220,20 @@ def test_poses_far_away_are_moved_to_the_first_and_the_offset_is_kept(folder: Pa
     assert far.poses == pytest.approx(straight.poses, abs=1e-6)
     assert far.origin - straight.origin == pytest.approx([450_000.0, 5_430_000.0, 120.0])
     assert near.origin == pytest.approx(near.poses[0, :3, 3])
+
+
+@pytest.mark.parametrize(
+    ("times", "words"),
+    [
+        ([5.0, 5.0, 5.0, 5.0], "4 of 4 scans have the time of another one (5)"),
+        ([0.0, 0.0, 0.0, 0.1], "3 of 4 scans have the time of another one (0)"),
+        ([1e18, 1e18 + 1, 1e18 + 2, 1e18 + 3], "likely nanoseconds"),
+        ([1.7e15, 1.7e15 + 1, 1.7e15 + 2, 1.7e15 + 3], "likely microseconds"),
+        ([1.7e12, 1.7e12 + 100, 1.7e12 + 200, 1.7e12 + 300], "likely milliseconds"),
+    ],
+)
+def test_times_that_are_equal_or_huge_are_refused(
+    folder: Path, times: list[float], words: str
+) -> None:
+    (folder / "times.txt").write_text("".join(f"{each:.1f}\n" for each in times))
+    assert words in refused(folder, "times.txt")
