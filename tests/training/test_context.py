@@ -27,6 +27,7 @@ from training.methods.context import (
     ContextRecipe,
     Projection,
     group_weights,
+    height_scatter,
     learn_neighborhood,
     learn_rotation,
     rotation,
@@ -287,6 +288,34 @@ def apart(folder: Path, data: TrainingSet, neighborhood: Float32 | None) -> Floa
     """Return the distances between the descriptors, which no rotation changes."""
     described = load_extractor(folder).describe(data.segments, neighborhood)
     return np.asarray(np.linalg.norm(described[:, None] - described[None], axis=2))
+
+
+def test_shift_of_heights_scatters_only_neighboring_layers() -> None:
+    rings, layers = NEIGHBORHOOD_V1.shape
+    centers = np.zeros((2, rings, layers))
+    centers[0, 5, 3] = 2.0
+    centers[1, 7, 0] = 4.0
+    found = height_scatter(centers.reshape(2, -1), np.array([3.0, 1.0]))
+    expected = np.zeros((rings, layers, rings, layers))
+    # A shift takes from a layer what it gives to the next one, and returns it the other way.
+    expected[5, 2, 5, 2] = expected[5, 4, 5, 4] = 3 / 4
+    expected[5, 2, 5, 4] = expected[5, 4, 5, 2] = -3 / 4
+    expected[7, 1, 7, 1] = 4 / 4
+    assert found.reshape(expected.shape) == pytest.approx(expected)
+
+
+def test_only_synthetic_drives_alone_get_the_scatter_of_heights() -> None:
+    data = many_groups(seed=0)
+    count = len(data.groups)
+
+    def axes(synthetic: np.ndarray | None, heights: float) -> Float32:
+        recipe = ContextRecipe(dimension=8, heights=heights)
+        return learn_neighborhood(replace(data, synthetic=synthetic), recipe).axes
+
+    made_up, mixed = np.ones(count, dtype=bool), data.groups > 5
+    assert np.abs(axes(made_up, 2.0) - axes(made_up, 0.0)).max() > 0.01
+    assert (axes(mixed, 2.0) == axes(mixed, 0.0)).all()
+    assert (axes(None, 2.0) == axes(None, 0.0)).all()
 
 
 def test_refit_keeps_the_network_and_fits_the_rest(tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ from scipy.linalg import eigh
 from scipy.spatial.distance import cdist
 from scipy.stats import ortho_group
 
+from placecell.core.parameters import NEIGHBORHOOD_V1
 from placecell.core.types import Bool, Float32, Float64, Int64
 from placecell.descriptors.quantizer import Quantizer
 from training.data.training_set import TrainingSet
@@ -46,6 +47,11 @@ class ContextRecipe:
     """Weight of all groups of recorded drives together, if there are synthetic ones, 0 to 1."""
     linked: float = 4.0
     """Weight of a group that several drives see, in the weight of one that a single drive sees."""
+    heights: float = 2.0
+    """Scatter of shifted heights, in parts of the scatter within groups (`height_scatter`).
+
+    It is added if all drives are synthetic; recorded drives show how heights differ themselves.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +105,9 @@ def learn_neighborhood(training: TrainingSet, recipe: ContextRecipe) -> Projecti
         weights[seen_by_several(groups, training.drives[plural])] *= recipe.linked
     within, centers = scatter(values, groups, training.segments.sensors[plural], weights)
     between = np.cov(centers.T, bias=True, aweights=weights)
+    if recipe.heights and training.synthetic is not None and training.synthetic.all():
+        shifts = height_scatter(centers, weights)
+        within += recipe.heights * np.trace(within) / np.trace(shifts) * shifts
     sphere = np.eye(len(within)) * np.trace(within) / len(within)
     drawn = (1 - recipe.shrinkage) * within + recipe.shrinkage * sphere
     # Eigenvalues ascend. Axes have length one in the scatter within groups, which weights them.
@@ -170,6 +179,22 @@ def scatter(
         within += off.T @ (np.diag(weights.sum(axis=1)) - weights) @ off
         total += weights.sum()
     return within / total, centers
+
+
+def height_scatter(centers: Float64, weights: Float64) -> Float64:
+    """Return the scatter that a small shift of all heights adds to neighborhoods, (size, size).
+
+    A view that sees only the upper part of a segment has a higher centroid, so its neighbors are
+    counted in lower layers. Synthetic towns have less of this than real streets. The scatter is
+    that of the derivative by the layer, as in tangent distance (Simard et al., 1993).
+
+    Args:
+        centers: mean neighborhood of each group, float64 (groups, size of `NEIGHBORHOOD_V1`).
+        weights: weight of each group, float64 (groups,).
+    """
+    layers = np.pad(centers.reshape(-1, *NEIGHBORHOOD_V1.shape), ((0, 0), (0, 0), (1, 1)))
+    slopes = ((layers[:, :, 2:] - layers[:, :, :-2]) / 2).reshape(len(centers), -1)
+    return np.asarray((slopes * weights[:, None]).T @ slopes / weights.sum())
 
 
 def learn_rotation(descriptors: Float32, per_byte: int, steps: int = 20) -> Float32:
