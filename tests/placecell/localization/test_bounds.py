@@ -16,7 +16,7 @@ PARAMETERS = LocalizationParameters(hypotheses=6)
 
 
 class CountingMap:
-    """`MapSegments` that counts the compared pairs. All pairs are equally similar."""
+    """`MapBoxes` that counts the compared pairs. All pairs are equally similar."""
 
     def __init__(self, centroids: Float64) -> None:
         self.centroids = centroids
@@ -29,6 +29,9 @@ class CountingMap:
     def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
         self.most_pairs = max(self.most_pairs, len(rows))
         return np.full(len(queries), 0.5)
+
+    def heights(self, rows: Int64) -> Float64:
+        return np.full(len(rows), np.nan)
 
 
 def candidates_of(query: HardQuery) -> Candidates:

@@ -15,7 +15,7 @@ HERE = Pose.of_yaw(0.0, np.zeros(3))
 
 
 class TableOfSegments:
-    """`MapSegments` with a table of match probabilities, [query, row]."""
+    """`MapBoxes` without heights, with a table of match probabilities, [query, row]."""
 
     def __init__(self, centroids: Float64, match_probabilities: Float64) -> None:
         self.centroids = centroids
@@ -27,6 +27,9 @@ class TableOfSegments:
 
     def match_probabilities(self, queries: Int64, rows: Int64) -> Float64:
         return np.asarray(self.looks[queries, rows])
+
+    def heights(self, rows: Int64) -> Float64:
+        return np.full(len(rows), np.nan)
 
 
 def grid(count: int) -> Float64:
