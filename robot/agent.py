@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -254,7 +255,8 @@ class RobotAgent:
             self._update()
             self._localizer.close()
             if self._courier is not None:
-                self._step_courier(is_last=True)
+                with suppress(OSError):  # a pulled map that a full disk could not keep
+                    self._step_courier(is_last=True)
                 self._courier.close()
             self._outputs.close()
             self._summary = self._summarize()

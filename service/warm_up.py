@@ -12,6 +12,7 @@ import numpy as np
 from placecell.core.parameters import PROTOCOL_V1
 from placecell.descriptors.reranking import supports
 from placecell.localization import Candidates, LocalizationParameters, localize
+from placecell.localization.pose_height import edge_likelihood
 from placecell.segmentation.pipeline import segment_rows
 from service.core.problems import Problem
 from service.core.settings import Limits
@@ -59,5 +60,6 @@ def _compile_all(models: Models, limits: Limits) -> None:
     # With a lower limit, correspondences are also voted on, as in requests of many segments.
     parameters = LocalizationParameters(most=SEGMENTS - 1)
     localize(candidates, parameters, models.default.confidence)
+    edge_likelihood(centers, np.ones(SEGMENTS), centers, np.ones(SEGMENTS))
     segment_rows(random.uniform(-5, 5, (POINTS, 3)).astype(np.float32), PROTOCOL_V1)
     supports(centers, centers[:, None], np.zeros((SEGMENTS, 1), np.int64))

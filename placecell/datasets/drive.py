@@ -441,9 +441,9 @@ def check_motion(poses: Float64, times: Float64, pose_file: Path, time_file: Pat
         )
     if wait == 0:
         raise DriveError(
-            f"{time_file}: {np.count_nonzero(waits == 0) + 1} of {len(times)} scans have the time "
-            f"of another one ({times[int((waits == 0).argmax())]:.6g}). Each scan needs its own "
-            "time in seconds: correct the times, or the messages that the recorder repeated"
+            f"{time_file}: {np.count_nonzero(waits == 0)} of {len(times)} scans have the time "
+            f"of the scan before ({times[int((waits == 0).argmax())]:.6g}). Each scan needs its "
+            "own time in seconds: correct the times, or the messages that the recorder repeated"
         )
     remarks = []
     moving = steps > 0.02

@@ -208,7 +208,8 @@ def ground_offset(
         places, meters; NaN if there are too few segments.
     """
     some = evenly(np.arange(len(points)), MOST_ROWS)
-    centers = places[evenly(np.arange(len(places)), CENTERS)]
+    ranked = places[np.lexsort(places.T)]  # the order of the request does not matter
+    centers = ranked[evenly(np.arange(len(ranked)), CENTERS)]
     apart = _levels(centers, points[some], heights[some]) - _levels(centers, places, boxes)
     apart = apart[np.isfinite(apart)]
     if not len(apart):

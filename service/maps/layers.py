@@ -199,14 +199,16 @@ class MapLayers:
     def heights(self, rows: Int64) -> Float64:
         """Return the heights of the boxes of rows, float64 (n,), meters; NaN where unknown.
 
-        A map rounds them up to decimeters; half a decimeter is subtracted.
+        A map rounds them up to decimeters; half a decimeter is subtracted. From 25.5 m on they are
+        unknown.
         """
         above = rows >= len(self.base)
         stored = np.zeros(len(rows))
         for layer, here, first in ((self.base, ~above, 0), (self.recent, above, len(self.base))):
             if layer.extents is not None:
                 stored[here] = layer.extents[rows[here] - first, 2]
-        return np.where(stored > 0, (stored - 0.5) / 10, np.nan)
+        known = (stored > 0) & (stored < 255)  # 255: this or higher
+        return np.where(known, (stored - 0.5) / 10, np.nan)
 
     def presence(self, rows: Int64) -> Float64 | None:
         """Return how surely the segments of rows still stand there, 0 to 1, as an array like rows.

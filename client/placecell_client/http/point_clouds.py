@@ -62,8 +62,8 @@ def heights_of(segments: Sequence[ArrayLike]) -> NDArray[np.float64]:
     """Return the vertical sides of the segments' boxes, meters; NaN without finite points."""
     heights = np.full(len(segments), np.nan)
     for index, points in enumerate(segments):
-        up = points_of(points, f"segment {index}")[:, 2]
-        up = up[np.isfinite(up)]
+        cloud = points_of(points, f"segment {index}")
+        up = cloud[np.isfinite(cloud).all(axis=1), 2]
         if len(up):
             heights[index] = np.ptp(up)
     return heights

@@ -43,8 +43,8 @@ class LocalizeQuery(
     heights: Heights | None = Field(
         None,
         description="Height of each code's segment, the vertical side of its box, meters; null "
-        "where it is unknown. With heights, and `extents` in the map, a pose has the right height "
-        "even if the map's sensor sees objects up to another height.",
+        "where it is unknown. With heights, and `extents` in the map, the height of a pose is "
+        "mostly better if the map's sensor sees objects up to another height.",
     )
     k: int = Field(25, ge=1, strict=True, description="Largest number of candidates per segment.")
     motion: Literal["yaw", "se3"] = Field(

@@ -225,8 +225,8 @@ def test_poses_far_away_are_moved_to_the_first_and_the_offset_is_kept(folder: Pa
 @pytest.mark.parametrize(
     ("times", "words"),
     [
-        ([5.0, 5.0, 5.0, 5.0], "4 of 4 scans have the time of another one (5)"),
-        ([0.0, 0.0, 0.0, 0.1], "3 of 4 scans have the time of another one (0)"),
+        ([5.0, 5.0, 5.0, 5.0], "3 of 4 scans have the time of the scan before (5)"),
+        ([0.0, 0.0, 0.0, 0.1], "2 of 4 scans have the time of the scan before (0)"),
         ([1e18, 1e18 + 1, 1e18 + 2, 1e18 + 3], "likely nanoseconds"),
         ([1.7e15, 1.7e15 + 1, 1.7e15 + 2, 1.7e15 + 3], "likely microseconds"),
         ([1.7e12, 1.7e12 + 100, 1.7e12 + 200, 1.7e12 + 300], "likely milliseconds"),

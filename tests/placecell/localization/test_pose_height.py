@@ -217,3 +217,15 @@ def test_few_boxes_below_the_ground_do_not_move_it(seed: int) -> None:
     seen = TRUE.apply(candidates.centroids), candidates.heights
     right, wrong = (ground_offset(*seen, each, there.sizes)[0] for each in (there.centroids, low))
     assert wrong == pytest.approx(right, abs=0.05)
+
+
+def test_order_of_the_segments_does_not_matter_on_uneven_ground() -> None:
+    random = np.random.default_rng(3)
+    places = random.uniform(-30, 30, (60, 3))
+    places[:, 2] = 0.1 * places[:, 0] + random.normal(0, 0.3, 60)
+    boxes = random.uniform(0.5, 3.0, 60)
+    points, heights = places + (0.0, 0.0, 0.4), boxes + 0.5
+    told = ground_offset(places, boxes, points, heights)
+    for _ in range(5):
+        order = random.permutation(60)
+        assert ground_offset(places[order], boxes[order], points, heights) == told
