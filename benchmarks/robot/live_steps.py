@@ -16,7 +16,7 @@ import time
 from array import array
 from collections import deque
 from collections.abc import Callable, Iterator, MutableSequence, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import islice
@@ -146,9 +146,21 @@ def on_cores(count: int) -> Iterator[None]:
         raise ValueError(f"Invalid --cores {count}: this process may use 1 to {len(allowed)}.")
     pin_threads(set(sorted(allowed)[:count]))
     try:
-        yield
+        # Threads beyond the cores would wait for each other.
+        with limited_threads(count):
+            yield
     finally:
         pin_threads(allowed)
+
+
+def limited_threads(count: int) -> AbstractContextManager[object]:
+    """Limit the threads of libraries that are loaded, if threadpoolctl is there (scikit-learn)."""
+    try:
+        from threadpoolctl import threadpool_limits
+    except ImportError:
+        return nullcontext()
+    limits: AbstractContextManager[object] = threadpool_limits(count)
+    return limits
 
 
 def pin_threads(cores: set[int]) -> None:
