@@ -250,7 +250,7 @@ def robots_of_captures(content: CompactMap) -> tuple[str, ...]:
 
 
 def cost_of_loops(contents: Sequence[CompactMap], parameters: PoseGraphParameters) -> Cost:
-    """Return the cost of searching the loops within and between maps: a lower bound.
+    """Return the cost of searching the loops within and between maps, if none is known yet.
 
     The localization of each capture takes about as long as the search, and is not counted.
     """

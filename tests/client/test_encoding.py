@@ -51,7 +51,8 @@ def test_integers_and_lists_are_accepted() -> None:
     assert points_of(body["segments"][0]).tolist() == [[1, 2, 2]]
     assert body["segments"][0]["sensor"] == [0, 0, 0]
     assert body["origin"] == [0, 0, 1]
-    assert segments_of([], [0, 0, 1], "msgpack") == ({"segments": []}, 0)
+    nothing, clouds = segments_of([], [0, 0, 1], "msgpack")
+    assert (nothing, clouds.dropped) == ({"segments": []}, 0)
 
 
 @pytest.mark.parametrize("encoding", ["msgpack", "json"])

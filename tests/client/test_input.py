@@ -113,8 +113,8 @@ def test_B10_nonfinite_points_are_dropped_and_counted(encoding: Encoding, kind: 
     broken[3, 1], broken[7], broken[9, 2] = np.nan, np.inf, -np.inf
     masked = np.ma.masked_array(CLOUD, mask=np.zeros((40, 3), bool))
     masked[5, 0] = np.ma.masked
-    body, dropped = segments_of([broken, CLOUD.astype(kind), masked], SENSOR, encoding)
-    assert dropped == 4
+    body, clouds = segments_of([broken, CLOUD.astype(kind), masked], SENSOR, encoding)
+    assert clouds.dropped == 4
     counts = [
         len(each["points"]) // (12 if encoding == "msgpack" else 1) for each in body["segments"]
     ]

@@ -41,8 +41,8 @@ def loads(media_type: str, content: bytes) -> dict[str, Any]:
 
 def segments_of(
     segments: Sequence[ArrayLike], sensors: ArrayLike, encoding: Encoding
-) -> tuple[dict[str, Any], int]:
-    """Return the part of a body that holds segments, and the number of non-finite points.
+) -> tuple[dict[str, Any], Clouds]:
+    """Return the part of a body that holds segments, and the clouds that it holds.
 
     float32 arrays are sent unchanged. In msgpack, other arrays are sent as float32 relative to the
     median sensor position, with a resolution of micrometers.
@@ -63,7 +63,7 @@ def segments_of(
                 {"points": cloud.astype(np.float64).tolist(), "sensor": position.tolist()}
                 for cloud, position in zip(clouds.points, clouds.sensors, strict=True)
             ]
-        }, clouds.dropped
+        }, clouds
     origin = _origin(clouds.points, clouds.sensors)
     shift = np.zeros(3) if origin is None else origin
     body: dict[str, Any] = {
@@ -74,7 +74,7 @@ def segments_of(
             )
         ]
     }
-    return (body if origin is None else body | {"origin": origin.tolist()}), clouds.dropped
+    return (body if origin is None else body | {"origin": origin.tolist()}), clouds
 
 
 def codes_of(codes: ArrayLike, encoding: Encoding) -> list[list[int]] | bytes:

@@ -57,16 +57,10 @@ class Clouds:
             )
         return cls(tuple(clouds), _sensors(sensors, len(clouds)), dropped)
 
-
-def heights_of(segments: Sequence[ArrayLike]) -> NDArray[np.float64]:
-    """Return the vertical sides of the segments' boxes, meters; NaN without finite points."""
-    heights = np.full(len(segments), np.nan)
-    for index, points in enumerate(segments):
-        cloud = points_of(points, f"segment {index}")
-        up = cloud[np.isfinite(cloud).all(axis=1), 2]
-        if len(up):
-            heights[index] = np.ptp(up)
-    return heights
+    @property
+    def heights(self) -> NDArray[np.float64]:
+        """Return the vertical sides of the segments' boxes, meters; NaN without points."""
+        return np.array([np.ptp(each[:, 2]) if len(each) else np.nan for each in self.points])
 
 
 def points_of(points: ArrayLike, name: str) -> NDArray[Any]:

@@ -24,7 +24,7 @@ from placecell_client.http.encoding import (
     dumps,
     segments_of,
 )
-from placecell_client.http.point_clouds import heights_of, rows_of
+from placecell_client.http.point_clouds import rows_of
 from placecell_client.http.response import HttpResponse
 from placecell_client.maps import delta_file, map_file
 from placecell_client.maps.delta_file import Delta, encode_delta
@@ -186,8 +186,8 @@ class Calls:
 
     def describe(self, segments: Sequence[ArrayLike], sensors: ArrayLike) -> Call[Description]:
         """Build `POST /describe`."""
-        body, dropped = segments_of(segments, sensors, self.encoding)
-        count, heights = len(segments), heights_of(segments)
+        body, clouds = segments_of(segments, sensors, self.encoding)
+        count, dropped, heights = len(segments), clouds.dropped, clouds.heights
         return self._post(
             "/describe",
             body,
@@ -222,11 +222,15 @@ class Calls:
                 "/match", body, added, lambda answer: parsing.matches_of(answer, description, rows)
             )
         if description is None and segments is not None and sensors is not None:
-            own, dropped = segments_of(segments, sensors, self.encoding)
+            own, clouds = segments_of(segments, sensors, self.encoding)
+            dropped = clouds.dropped
             count = len(segments)
             added = {} if rerank else {"rerank": False}
             return self._with_older(
-                "/match", body | own, added, lambda answer: parsing.matches(answer, count, dropped)
+                "/match",
+                body | own,
+                added,
+                lambda answer: parsing.matches(answer, count, dropped),
             )
         raise ValueError("Give either a description, or segments and sensors.")
 
@@ -269,9 +273,12 @@ class Calls:
             )
             return _of_session(call, session)
         if description is None and segments is not None and sensors is not None:
-            own, dropped = segments_of(segments, sensors, self.encoding)
+            own, clouds = segments_of(segments, sensors, self.encoding)
+            dropped = clouds.dropped
             call = self._post(
-                "/localize", body | own, lambda answer: parsing.localizations(answer, dropped)
+                "/localize",
+                body | own,
+                lambda answer: parsing.localizations(answer, dropped),
             )
             return _of_session(call, session)
         raise ValueError("Give either a description, or segments and sensors.")
